@@ -1,0 +1,91 @@
+;;;; chainer.lisp -- the rules run, in order, each once.
+
+(in-package :supergrip-chainer)
+
+(defstruct stop
+  "Why a run ended: VERDICT is :CANT, or what another action gives; RULE the rule that ended it;
+WORDS what it said, as strings."
+  verdict rule words)
+
+;;; The log.  An event is one integer: the numbers of the rule and of the action, and the binding
+;;; under which the action was done; so everything about it can be told later.
+
+(defun log-event (memory rule action binding)
+  "Note in the log of MEMORY that RULE did its ACTION, a number, under BINDING."
+  (declare (type memory memory) (type packed binding) (type (unsigned-byte 8) action))
+  (push (logior binding (ash action 24) (ash (the (unsigned-byte 24) (rule-index rule)) 32))
+        (memory-log memory)))
+
+(defun event-rule (event rulebase)
+  "Return the rule of EVENT."
+  (svref (rulebase-rules rulebase) (ash event -32)))
+
+(defun event-action (event rulebase)
+  "Return the action of EVENT."
+  (nth (ldb (byte 8 24) event) (rule-actions (event-rule event rulebase))))
+
+(defun event-binding (event)
+  "Return the binding of EVENT, a packed list."
+  (ldb (byte 24 0) event))
+
+(defun event-fact (event rulebase)
+  "Return the predicate and the packed list that EVENT remembered, or NIL."
+  (let ((action (event-action event rulebase)))
+    (and (action-predicate action)
+         (values (action-predicate action)
+                 (instantiate (action-terms action) (event-binding event))))))
+
+;;; Running
+
+(defun run-rules (rulebase memory)
+  "Run the rules of RULEBASE on MEMORY, in order, each once.
+All bindings of a rule are found first; then its first action is done for all of them, then its
+second.  Returns the STOP of the action that ended the run, or NIL if none did."
+  (declare (type memory memory))
+  (loop for rule across (rulebase-rules rulebase)
+        do (let ((count (funcall (the function (rule-matcher rule)) memory)))
+             (declare (fixnum count))
+             (when (plusp count)
+               (dolist (action (rule-actions rule))
+                 (let ((function (action-function action)))
+                   (declare (function function))
+                   (dotimes (i count)
+                     (let ((stop (funcall function memory (aref (memory-bindings memory) i))))
+                       (when stop
+                         (return-from run-rules stop)))))))))
+  nil)
+
+;;; The two actions of a standard chainer
+
+(defun action-number (action)
+  "Return the place of ACTION, being compiled, in its rule."
+  (position (action-form action) (rest (fourth (rule-form *rule*))) :test #'eq))
+
+(defun negation-in (words)
+  (find-if (lambda (word) (or (name= word "NO") (name= word "NOT"))) words))
+
+(define-action :remember (action rulebase)
+  (if (negation-in (action-operands action))
+      (complain (action-form action)
+                "a negation can't be remembered: what is not remembered is false")
+      (multiple-value-bind (predicate terms)
+          (parse-sentence (action-operands action) (action-form action) nil)
+        (when predicate
+          (setf (action-predicate action) predicate
+                (action-terms action) terms
+                (action-function action)
+                (let ((rule *rule*) (number (action-number action)))
+                  (lambda (memory binding)
+                    (when (remember memory predicate (instantiate terms binding))
+                      (log-event memory rule number binding))
+                    nil)))))))
+
+(define-action :cant (action rulebase)
+  (let ((words (action-operands action)))
+    (if (or (null words) (notevery #'namep words))
+        (complain (action-form action) "CANT is followed by words that say why")
+        (let ((stop (make-stop :verdict :cant :rule *rule* :words (mapcar #'symbol-name words))))
+          (setf (action-function action)
+                (lambda (memory binding)
+                  (declare (ignore memory binding))
+                  stop))))))

@@ -1,0 +1,29 @@
+;;;; package.lisp -- the upper level: a forward chainer over sentences about the faces of a box.
+
+(defpackage :supergrip-chainer
+  (:use :cl :supergrip-data)
+  (:documentation "An s-expression forward chainer: ordered rules, each run once; negation under
+the closed-world assumption; predicates of unordered lists of surfaces; actions attached through
+one generic function.")
+  (:export
+   ;; surfaces
+   #:+surfaces+ #:surface #:surface-index #:surface-name #:opposite #:surface-axis #:surface-sign
+   #:pack #:pack-mask #:pack-count #:pack-surfaces #:pack-elements #:pack-names
+   ;; predicates and working memory
+   #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
+   #:memory #:make-memory #:memory-client #:memory-log
+   #:recall #:remember #:facts #:assertions
+   ;; rules
+   #:rule #:rule-name #:rule-form #:rule-index #:rule-clauses #:rule-actions #:rule-variables
+   #:rule-line #:rule-file
+   #:clause #:clause-negated #:clause-predicate #:clause-terms #:clause-form #:clause-words
+   #:action #:action-verb #:action-form #:action-predicate #:action-terms #:action-target
+   #:action-function #:action-operands
+   #:rulebase #:make-rulebase #:build-rulebase #:rulebase-rules #:rulebase-predicates
+   #:find-rule #:find-predicate #:rulebase-client
+   ;; actions
+   #:compile-action #:define-action #:action-verbs #:parse-surfaces #:parse-sentence
+   #:term-variable-p #:term-value #:instantiate #:*rule*
+   ;; running
+   #:run-rules #:stop #:stop-verdict #:stop-rule #:stop-words #:make-stop
+   #:log-event #:event-rule #:event-action #:event-binding #:event-fact))

@@ -1,0 +1,276 @@
+;;;; rulebase.lisp -- rules are read, checked and numbered.
+
+(in-package :supergrip-chainer)
+
+(defstruct clause
+  "One clause of an antecedent.  TERMS are variables and faces (see TERM-VALUE)."
+  (negated nil) (predicate nil) (terms '() :type list) (form nil))
+
+(defstruct action
+  "One action of a consequent.  VERB is its first word, a string, OPERANDS the rest of FORM.
+FUNCTION is called with a memory and a binding; it returns NIL, or a STOP to end the run.
+PREDICATE and TERMS are what it remembers, TARGET what else it names, if anything."
+  (verb "" :type string) (operands '()) (form nil)
+  (function nil :type (or null function))
+  (predicate nil) (terms '() :type list) (target nil))
+
+(defstruct rule
+  "A rule.  VARIABLES are the names of its variables; the place of one is its number."
+  (name nil) (form nil) (file nil) (line nil) (index 0 :type fixnum)
+  (variables '() :type list)
+  (clauses '() :type list)
+  (actions '() :type list)
+  (matcher nil :type (or null function)))
+
+(defstruct (rulebase (:constructor %make-rulebase))
+  "Ordered rules and the predicates that they speak of.  CLIENT is what the actions of the lower
+level are compiled against."
+  (rules #() :type simple-vector)
+  (predicates #() :type simple-vector)
+  (table (make-hash-table :test #'equal))
+  (client nil))
+
+(defun find-rule (rulebase name)
+  "Return the rule of RULEBASE that has NAME, or NIL."
+  (find name (rulebase-rules rulebase) :key #'rule-name :test #'string-equal))
+
+(defun find-predicate (rulebase words)
+  "Return the predicate of RULEBASE that has WORDS, a list of strings, or NIL."
+  (gethash words (rulebase-table rulebase)))
+
+;;; Terms: a variable is its number, 0 to 5; a face f is the number -1-f.
+
+(declaim (inline term-variable-p term-value))
+(defun term-variable-p (term)
+  "True if TERM is a variable, not a face."
+  (declare (fixnum term))
+  (>= term 0))
+
+(defun term-value (term binding)
+  "Return the face that TERM stands for under BINDING, a packed list."
+  (declare (type (integer -6 5) term) (type packed binding))
+  (if (term-variable-p term)
+      (pack-ref binding term)
+      (- -1 term)))
+
+(defun instantiate (terms binding)
+  "Return TERMS under BINDING, packed in the order of TERMS."
+  (let ((packed 0))
+    (declare (type packed packed))
+    (loop for term in terms
+          for place of-type (integer 0 5) from 0
+          do (setf packed (pack-with packed place (term-value term binding))))
+    packed))
+
+;;; Sentences
+
+(defvar *rulebase*)
+(setf (documentation '*rulebase* 'variable) "The rule base being built.")
+(defvar *rule*)
+(setf (documentation '*rule* 'variable) "The rule being read.")
+
+(defun variable-name-p (name)
+  (and (namep name)
+       (char= (char (symbol-name name) 0) #\S)
+       (> (length (symbol-name name)) 1)))
+
+(defun intern-variable (name bind form)
+  "Return the number of the variable NAME; new ones are allowed if BIND is true."
+  (or (position (symbol-name name) (rule-variables *rule*) :test #'string=)
+      (cond ((not bind)
+             (complain form "the variable ~a stands in no clause of the antecedent" name))
+            ((= (length (rule-variables *rule*)) 6)
+             (complain form "more than six variables: a box has six surfaces"))
+            (t
+             (setf (rule-variables *rule*)
+                   (append (rule-variables *rule*) (list (symbol-name name))))
+             (1- (length (rule-variables *rule*)))))))
+
+(defun parse-surface (element bind form)
+  "Return the term that ELEMENT of the list FORM stands for, or NIL after a complaint."
+  (cond ((not (namep element))
+         (complain form "~a is not a surface" (form-text element)))
+        ((surface-index element) (- -1 (surface-index element)))
+        ((variable-name-p element) (intern-variable element bind form))
+        (t (complain form "~a is neither a surface (X1 to Z2) nor a variable ~
+                           (a name that begins with S, as S1)" element))))
+
+(defun parse-surfaces (list bind)
+  "Return the terms of LIST, distinct surfaces and variables.  Variables that the rule does not
+have yet are allowed if BIND is true.  Complains, and returns NIL and true, of anything else."
+  (let ((terms (loop for element in list collect (parse-surface element bind list))))
+    (cond ((member nil terms) (values nil t))
+          ((/= (length terms) (length (remove-duplicates terms)))
+           (complain list "the same surface twice in ~a: lists of surfaces hold distinct ones"
+                     (form-text list))
+           (values nil t))
+          (t (values terms nil)))))
+
+(defun intern-predicate (words arity form &key given)
+  "Return the predicate of WORDS, made if it is new, with lists of ARITY surfaces."
+  (let ((predicate (gethash words (rulebase-table *rulebase*))))
+    (cond ((null predicate)
+           (setf (gethash words (rulebase-table *rulebase*))
+                 (make-predicate :words words :arity arity :given given
+                                 :index (hash-table-count (rulebase-table *rulebase*)))))
+          ((/= arity (predicate-arity predicate))
+           (complain form "~a takes ~[no list of surfaces~;1 surface~:;~:*~d surfaces~], here ~
+                           it has ~[none~:;~:*~d~]"
+                     (predicate-text predicate) (predicate-arity predicate) arity))
+          (t predicate))))
+
+(defun parse-sentence (words form bind)
+  "Return the predicate and the terms of the sentence WORDS, the words of FORM that matter: names,
+the last perhaps a list of surfaces.  Returns NIL after a complaint."
+  (let* ((last (first (last words)))
+         (list (and (consp last) last))
+         (names (if list (butlast words) words)))
+    (cond ((null names)
+           (complain form "an empty sentence"))
+          ((some (lambda (name) (not (namep name))) names)
+           (complain form "~a: a sentence is made of words, and may end in one list of surfaces"
+                     (form-text form)))
+          (t
+           (multiple-value-bind (terms bad) (if list (parse-surfaces list bind) '())
+             (unless bad
+               (let ((predicate (intern-predicate (mapcar #'symbol-name names) (length terms) form)))
+                 (and predicate (values predicate terms)))))))))
+
+(defun parse-clause (form)
+  "Return the clause that FORM spells, or NIL after a complaint."
+  (cond ((not (consp form))
+         (complain form "~a is not a clause: a clause is a list" (form-text form)))
+        ((and (name= (first form) "NOT") (consp (second form)) (name= (first (second form)) "NOT"))
+         (complain form "NOT inside NOT"))
+        ((and (name= (first form) "NOT") (consp (second form)) (namep (first (second form))))
+         (if (surface-list-p (second form))
+             (complain form "NOT ~a names no predicate" (form-text (second form)))
+             (complain form "write (NOT ~{~a~^ ~}): NOT stands before the words, without a list ~
+                             of its own" (mapcar #'form-text (second form)))))
+        (t
+         (let* ((not-p (name= (first form) "NOT"))
+                (words (if not-p (rest form) form))
+                (no-count (count-if (lambda (word) (name= word "NO")) words)))
+           (cond ((or (> no-count 1) (and not-p (plusp no-count))
+                      (find-if (lambda (word) (name= word "NOT")) words))
+                  (complain form "~a is negated twice" (form-text form)))
+                 (t
+                  (multiple-value-bind (predicate terms)
+                      (parse-sentence (remove-if (lambda (word) (name= word "NO")) words) form t)
+                    (and predicate
+                         (make-clause :negated (or not-p (plusp no-count)) :predicate predicate
+                                      :terms terms :form form)))))))))
+
+(defun surface-list-p (list)
+  (every (lambda (element) (and (namep element)
+                                (or (surface-index element) (variable-name-p element))))
+         list))
+
+;;; Actions
+
+(defvar *action-verbs* '() "The verbs that DEFINE-ACTION has defined.")
+
+(defun action-verbs ()
+  "Return the verbs that actions may begin with, as strings."
+  (reverse *action-verbs*))
+
+(defgeneric compile-action (verb action rulebase)
+  (:documentation "Fill ACTION, the FUNCTION at least, for its VERB, a keyword; complain of what is
+wrong in it.  This is where an action is attached: DEFINE-ACTION adds a method.")
+  (:method (verb action rulebase)
+    (declare (ignore rulebase))
+    (complain (action-form action) "~a is no action; actions are ~{~a~^, ~}~a" verb
+              (action-verbs) (suggestion (string verb) (action-verbs)))))
+
+(defmacro define-action (verb (action rulebase) &body body)
+  "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, complains of what
+is wrong, and stores the ACTION-FUNCTION."
+  `(progn
+     (pushnew ,(symbol-name verb) *action-verbs* :test #'string=)
+     (defmethod compile-action ((verb (eql ,verb)) ,action ,rulebase)
+       (declare (ignorable ,rulebase))
+       ,@body)))
+
+(defun parse-action (form)
+  "Return the action that FORM spells, or NIL after a complaint."
+  (if (not (and (consp form) (namep (first form))))
+      (complain form "~a is not an action: an action is a list that begins with ~{~a~^, ~}"
+                (form-text form) (action-verbs))
+      (let ((action (make-action :verb (symbol-name (first form)) :operands (rest form)
+                                 :form form)))
+        (compile-action (or (find-symbol (symbol-name (first form)) :keyword) (first form))
+                        action *rulebase*)
+        (and (action-function action) action))))
+
+;;; Rules
+
+(defun parse-parts (parse forms label)
+  "Return what PARSE makes of each of FORMS, the place in the reports being LABEL and a number."
+  (loop for form in forms
+        for number from 1
+        for *place* = (format nil "~a ~d" label number)
+        collect (let ((*form* (if (consp form) form *form*)))
+                  (funcall parse form))))
+
+(defun part-p (form word)
+  (and (consp form) (name= (first form) word)))
+
+(defun parse-rule (form)
+  "Return the rule that FORM, (RULE name (IF clause...) (THEN action...)), spells.
+NIL after a complaint."
+  (let* ((name (and (consp form) (namep (second form)) (second form)))
+         (*subject* (if name (format nil "RULE ~a" name) "RULE without a name"))
+         (*place* nil)
+         (*form* form)
+         (*rule* (make-rule :name (and name (symbol-name name)) :form form :file *file*
+                            :line (and *lines* (gethash form *lines*)))))
+    (cond ((or (null name) (/= (length form) 4)
+               (not (part-p (third form) "IF")) (not (part-p (fourth form) "THEN")))
+           (complain form "a rule is (RULE name (IF clause...) (THEN action...))"))
+          ((null (rest (third form)))
+           (complain form "IF has no clause"))
+          ((null (rest (fourth form)))
+           (complain form "THEN has no action"))
+          (t
+           (setf (rule-clauses *rule*) (parse-parts #'parse-clause (rest (third form)) "clause")
+                 (rule-actions *rule*) (parse-parts #'parse-action (rest (fourth form)) "action"))
+           (and (notany #'null (rule-clauses *rule*))
+                (notany #'null (rule-actions *rule*))
+                *rule*)))))
+
+(defun build-rulebase (forms inputs &key client)
+  "Return a rule base of FORMS, a list of (RULE ...) forms in the order in which they are to run.
+INPUTS are the predicates that the input provides: a list of (WORDS ARITY), WORDS a list of
+strings.  CLIENT is what the actions of the lower level are compiled against.
+
+Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
+  (let ((*rulebase* (%make-rulebase :client client))
+        (rules '()))
+    (loop for (words arity) in inputs
+          do (intern-predicate words arity nil :given t))
+    (dolist (form forms)
+      (let ((rule (parse-rule form)))
+        (when rule
+          (if (find (rule-name rule) rules :key #'rule-name :test #'string=)
+              (let ((*subject* (format nil "RULE ~a" (rule-name rule))))
+                (complain form "there is a rule of this name before it"))
+              (push rule rules)))))
+    (setf (rulebase-rules *rulebase*) (coerce (reverse rules) 'simple-vector))
+    (loop for rule across (rulebase-rules *rulebase*)
+          for index from 0
+          do (setf (rule-index rule) index))
+    (number-predicates *rulebase*)
+    (loop for rule across (rulebase-rules *rulebase*)
+          do (setf (rule-matcher rule) (compile-antecedent rule)))
+    *rulebase*))
+
+(defun number-predicates (rulebase)
+  "Lay out the facts of all predicates of RULEBASE in one vector."
+  (let ((predicates (make-array (hash-table-count (rulebase-table rulebase))))
+        (start 0))
+    (loop for predicate being the hash-values of (rulebase-table rulebase)
+          do (setf (svref predicates (predicate-index predicate)) predicate))
+    (loop for predicate across predicates
+          do (setf (predicate-start predicate) start)
+             (incf start (predicate-room predicate)))
+    (setf (rulebase-predicates rulebase) predicates)))

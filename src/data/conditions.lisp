@@ -1,0 +1,122 @@
+;;;; conditions.lisp -- what is wrong with a file, said once, completely and in one place.
+
+(in-package :supergrip-data)
+
+(defstruct problem
+  "One thing that is wrong.  SEVERITY is :ERROR or :WARNING; FILE, LINE and COLUMN say where, as
+far as it is known; SUBJECT is the rule, grasp or box (\"RULE GRIP1\"), PLACE the part of it
+(\"clause 2\"); TEXT says what is wrong and how to mend it."
+  (severity :error :type (member :error :warning))
+  (file nil) (line nil) (column nil)
+  (subject nil) (place nil)
+  (text "" :type string))
+
+(defun write-problem (problem stream)
+  "Write PROBLEM as FILE:LINE:COLUMN: SUBJECT, PLACE: TEXT, without the parts that are not known."
+  (format stream "~@[~a:~]~@[~d:~]~@[~d:~]" (problem-file problem) (problem-line problem)
+          (problem-column problem))
+  (when (or (problem-file problem) (problem-line problem)) (write-char #\Space stream))
+  (when (eq (problem-severity problem) :warning) (write-string "warning: " stream))
+  (format stream "~@[~a~]~:[~;, ~]~@[~a~]~:[~;: ~]~a"
+          (problem-subject problem)
+          (and (problem-subject problem) (problem-place problem))
+          (problem-place problem)
+          (or (problem-subject problem) (problem-place problem))
+          (problem-text problem)))
+
+(defmethod print-object ((problem problem) stream)
+  (if *print-escape*
+      (print-unreadable-object (problem stream :type t) (write-problem problem stream))
+      (write-problem problem stream)))
+
+;;; Conditions
+
+(define-condition supergrip-error (error) ()
+  (:documentation "Everything that SUPER-GRIP itself signals."))
+
+(define-condition input-error (supergrip-error)
+  ((problems :initarg :problems :reader input-error-problems
+             :documentation "The list of PROBLEMs, all of them, in the order of the file."))
+  (:report (lambda (condition stream)
+             (format stream "~{~a~^~%~}" (input-error-problems condition))))
+  (:documentation "Something that was given to SUPER-GRIP can't be used."))
+
+(define-condition syntax-error (input-error) ()
+  (:documentation "A file is not made of lists, names, numbers and strings."))
+
+(define-condition box-error (input-error) ()
+  (:documentation "A box description is not valid."))
+
+(define-condition knowledge-error (input-error) ()
+  (:documentation "Rules or grasps are not valid.  Restarts: RETRY reads the files again, CONTINUE
+goes on without the rules and grasps that are wrong."))
+
+(defun retry ()
+  "Invoke the restart RETRY: read the knowledge files again."
+  (invoke-restart 'retry))
+
+;;; Collecting problems
+
+(defvar *file* nil "The name of the file whose contents are being checked, or NIL.")
+(defvar *lines* nil "A table from each list read from that file to its line, or NIL.")
+(defvar *subject* nil "What is being checked, for the reports: \"RULE GRIP1\".")
+(defvar *place* nil "Which part of it: \"clause 2\".")
+(defvar *form* nil "The innermost list being checked whose line is known.")
+(defvar *problems*)
+
+(defun line-of (form)
+  (and *lines* (or (gethash form *lines*) (gethash *form* *lines*))))
+
+(defun complain (form control &rest arguments)
+  "Note an error in FORM, a list or a part of one, described by the format CONTROL and ARGUMENTS.
+A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL."
+  (let ((severity (if (consp control) (first control) :error))
+        (control (if (consp control) (second control) control)))
+    (push (make-problem :severity severity :file *file* :line (line-of form)
+                        :subject *subject* :place *place*
+                        :text (apply #'format nil control arguments))
+          *problems*))
+  nil)
+
+(defmacro with-problems (&body body)
+  "Run BODY; return its value and the list of the problems that it complained of, in order."
+  `(let ((*problems* '()))
+     (let ((value (progn ,@body)))
+       (values value (reverse *problems*)))))
+
+(defun errors-in (problems)
+  "Return those of PROBLEMS that are errors."
+  (remove :error problems :key #'problem-severity :test-not #'eq))
+
+;;; "Did you mean"
+
+(defun edit-distance (a b)
+  "Return how many letters must be inserted, deleted, replaced or swapped to turn A into B."
+  (let ((before nil)
+        (above (loop for j from 0 to (length b) collect j)))
+    (loop for i from 1 to (length a)
+          do (let ((row (list i)))
+               (loop for j from 1 to (length b)
+                     for same = (char= (char a (1- i)) (char b (1- j)))
+                     do (push (min (1+ (first row))
+                                   (1+ (nth j above))
+                                   (+ (nth (1- j) above) (if same 0 1))
+                                   (if (and (> i 1) (> j 1)
+                                            (char= (char a (1- i)) (char b (- j 2)))
+                                            (char= (char a (- i 2)) (char b (1- j))))
+                                       (1+ (nth (- j 2) before))
+                                       most-positive-fixnum))
+                              row))
+               (setf before above above (nreverse row))))
+    (first (last above))))
+
+(defun suggestion (text known)
+  "Return a phrase that suggests the string of KNOWN that TEXT was probably meant to be, or \"\"."
+  (let ((text (subseq text 0 (min 60 (length text))))
+        (best nil) (least nil))
+    (dolist (word known)
+      (let ((distance (edit-distance text word)))
+        (when (and (<= distance (max 1 (floor (length word) 3)))
+                   (or (null least) (< distance least)))
+          (setf best word least distance))))
+    (if best (format nil " (did you mean ~a?)" best) "")))

@@ -1,0 +1,22 @@
+;;;; package.lisp -- the data layer: names, problems and the reader of all data files.
+
+(defpackage :supergrip-data
+  (:use :cl)
+  (:documentation "Reads rule, grasp and box files without the Lisp reader, and reports what is wrong
+in them.")
+  (:export
+   ;; problems
+   #:problem #:problem-severity #:problem-file #:problem-line #:problem-column
+   #:problem-subject #:problem-place #:problem-text
+   #:complain #:with-problems #:*file* #:*lines* #:*subject* #:*place* #:*form*
+   #:errors-in #:suggestion
+   ;; conditions
+   #:supergrip-error #:input-error #:input-error-problems
+   #:syntax-error #:box-error #:knowledge-error
+   #:retry
+   ;; names and forms
+   #:name-text #:name= #:name-in #:namep #:canonical #:form-text #:as-double
+   ;; reader
+   #:source #:string-source #:stream-source #:source-line #:source-column #:source-name
+   #:read-datum #:skip-blanks #:end-of-data #:read-all #:record-start-line
+   #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*))

@@ -1,0 +1,319 @@
+;;;; reader.lisp -- the reader of all data files: rules, grasps, boxes.
+;;;;
+;;;; Lists, quoted forms, strings, ; comments, decimal numbers, ratios and names; anything else
+;;;; is a SYNTAX-ERROR with line and column.  Its limits are enforced while it reads, so no input
+;;;; can exhaust the stack or the heap, and it never interns.  It is used in place of READ, which
+;;;; interns, recurses without bound and evaluates #. forms.
+
+(in-package :supergrip-data)
+
+(defparameter *depth-limit* 32 "How deep lists may nest.")
+(defparameter *record-limit* 65536 "The most characters that one outermost form may have.")
+(defparameter *name-limit* 64 "The most characters that a name may have.")
+
+(defstruct (source (:constructor make-source (buffer end &key refill name)))
+  "Where characters come from.  REFILL is NIL or a function without arguments that returns the
+next buffer and its end, or NIL at the end."
+  (buffer "" :type (simple-array character (*)))
+  (position 0 :type fixnum)
+  (end 0 :type fixnum)
+  (refill nil :type (or null function))
+  (name nil)
+  (line 1 :type fixnum)
+  (offset 0 :type fixnum)               ; of the buffer's first character in the whole input
+  (line-offset 0 :type fixnum)          ; of the current line's first character
+  (record-offset 0 :type fixnum)        ; of the current record's first character
+  (record-start-line 1 :type fixnum)
+  (lines nil)                           ; NIL or a table from list to line
+  (token (make-string 128) :type (simple-array character (*))))
+
+(defun string-source (string &key name)
+  "Return a source that reads STRING.  NAME is used in reports."
+  (let ((buffer (coerce string '(simple-array character (*)))))
+    (make-source buffer (length buffer) :name name)))
+
+(defun stream-source (stream &key name)
+  "Return a source that reads STREAM, a character stream, to its end."
+  (let ((buffer (make-string 4096)))
+    (make-source buffer 0
+                 :name name
+                 :refill (lambda ()
+                           (let ((end (read-sequence buffer stream)))
+                             (and (plusp end) (values buffer end)))))))
+
+(defun source-column (source)
+  "Return the column, from 1, of the next character."
+  (1+ (- (+ (source-offset source) (source-position source)) (source-line-offset source))))
+
+(defun record-start-line (source)
+  "Return the line on which the record read last, or being read, begins."
+  (source-record-start-line source))
+
+(defun fail-at (source line column control &rest arguments)
+  (error 'syntax-error
+         :problems (list (make-problem :file (source-name source) :line line :column column
+                                       :text (apply #'format nil control arguments)))))
+
+(defun fail (source control &rest arguments)
+  (apply #'fail-at source (source-line source) (source-column source) control arguments))
+
+;;; Characters
+
+(defun refill (source)
+  "Get more characters.  Returns NIL at the end of the input."
+  (when (source-refill source)
+    (multiple-value-bind (buffer end) (funcall (source-refill source))
+      (when buffer
+        (incf (source-offset source) (source-end source))
+        (setf (source-buffer source) buffer
+              (source-position source) 0
+              (source-end source) end)
+        t))))
+
+(declaim (inline peek next))
+(defun peek (source)
+  "Return the next character without taking it, or NIL at the end."
+  (if (or (< (source-position source) (source-end source)) (refill source))
+      (schar (source-buffer source) (source-position source))
+      nil))
+
+(defun next (source)
+  "Take the character that PEEK returned."
+  (let ((character (schar (source-buffer source) (source-position source))))
+    (incf (source-position source))
+    (when (char= character #\Newline)
+      (incf (source-line source))
+      (setf (source-line-offset source) (+ (source-offset source) (source-position source))))
+    character))
+
+(declaim (inline check-size))
+(defun check-size (source)
+  (when (> (- (+ (source-offset source) (source-position source)) (source-record-offset source))
+           (the fixnum *record-limit*))
+    (fail source "the form that begins in line ~d is longer than ~d characters"
+          (source-record-start-line source) *record-limit*)))
+
+(declaim (inline blankp delimiterp))
+(defun blankp (character)
+  (or (char= character #\Space) (char= character #\Newline) (char= character #\Tab)
+      (char= character #\Return) (char= character #\Page)))
+
+(defun delimiterp (character)
+  (or (blankp character) (char= character #\() (char= character #\)) (char= character #\')
+      (char= character #\") (char= character #\;)))
+
+(defun name-character-p (character)
+  (or (char<= #\a character #\z) (char<= #\A character #\Z) (char<= #\0 character #\9)
+      (find character "-+*/<>=?!._%&$")))
+
+(defun character-description (character)
+  (if (and (graphic-char-p character) (char/= character #\Space))
+      (string character)
+      (format nil "character ~d" (char-code character))))
+
+(defun skip-blanks (source)
+  "Skip white space and comments; return the next character, or NIL at the end."
+  (loop for character = (peek source)
+        do (cond ((null character) (return nil))
+                 ((blankp character) (next source))
+                 ((char= character #\;)
+                  (loop for c = (peek source)
+                        while (and c (char/= c #\Newline))
+                        do (next source)
+                           (check-size source)))
+                 (t (return character)))
+           (check-size source)))
+
+;;; Forms
+
+(defun end-of-data ()
+  "The object that READ-DATUM returns at the end of the input."
+  'end-of-data)
+
+(defun read-datum (source)
+  "Read the next outermost form of SOURCE and return it, or (END-OF-DATA).
+Names become symbols that are to be compared by their letters (NAME=), in upper case; numbers
+integers, ratios or doubles; 'X becomes (QUOTE X).  Signals a SYNTAX-ERROR."
+  (start-record source)
+  (loop for character = (peek source)
+        while (and character (or (blankp character) (char= character #\;)))
+        do (skip-line-blanks source)
+           (start-record source))
+  (if (peek source)
+      (read-form source 0)
+      (end-of-data)))
+
+(defun start-record (source)
+  (setf (source-record-offset source) (+ (source-offset source) (source-position source))
+        (source-record-start-line source) (source-line source)))
+
+(defun skip-line-blanks (source)
+  "Skip one blank character, or a comment of any length."
+  (if (char= (peek source) #\;)
+      (loop for c = (peek source)
+            while (and c (char/= c #\Newline))
+            do (next source))
+      (next source)))
+
+(defun read-form (source depth)
+  (declare (fixnum depth))
+  (let ((character (skip-blanks source)))
+    (cond ((null character) (fail source "the file ends inside a form that begins in line ~d"
+                                  (source-record-start-line source)))
+          ((char= character #\() (read-list source depth))
+          ((char= character #\') (read-quoted source depth))
+          ((char= character #\") (read-string source))
+          ((char= character #\)) (fail source "a closing parenthesis too many"))
+          (t (read-token source)))))
+
+(defun deeper (source depth)
+  (declare (fixnum depth))
+  (when (>= depth (the fixnum *depth-limit*))
+    (fail source "lists nest deeper than ~d" *depth-limit*))
+  (1+ depth))
+
+(defun read-list (source depth)
+  (let* ((line (source-line source))
+         (column (source-column source))
+         (depth (deeper source depth))
+         (head (list nil))
+         (tail head))
+    (next source)
+    (loop for character = (skip-blanks source)
+          do (cond ((null character)
+                    (fail-at source line column "this parenthesis is never closed"))
+                   ((char= character #\))
+                    (next source)
+                    (return))
+                   (t (setf (cdr tail) (list (read-form source depth))
+                            tail (cdr tail)))))
+    (when (and (source-lines source) (cdr head))
+      (setf (gethash (cdr head) (source-lines source)) line))
+    (cdr head)))
+
+(defun read-quoted (source depth)
+  (let ((line (source-line source)))
+    (next source)
+    (let ((form (list :quote (read-form source (deeper source depth)))))
+      (when (source-lines source)
+        (setf (gethash form (source-lines source)) line))
+      form)))
+
+(defun read-string (source)
+  (let ((line (source-line source))
+        (column (source-column source))
+        (count 0))
+    (declare (fixnum count))
+    (next source)
+    (loop
+      (let ((character (peek source)))
+        (when (null character)
+          (fail-at source line column "this string is never closed"))
+        (next source)
+        (check-size source)
+        (case character
+          (#\" (return (subseq (source-token source) 0 count)))
+          (#\\ (setf character (peek source))
+           (unless (member character '(#\" #\\))
+             (fail source "in a string, \\ stands only before \\ or \""))
+           (next source)))
+        (setf count (push-token source character count))))))
+
+(defun push-token (source character count)
+  "Put CHARACTER at COUNT into the token of SOURCE, and return the new count."
+  (declare (character character) (fixnum count))
+  (let ((token (source-token source)))
+    (when (= count (length token))
+      (setf token (replace (make-string (* 2 count)) token)
+            (source-token source) token))
+    (setf (schar token count) character)
+    (1+ count)))
+
+(defun read-token (source)
+  (let ((line (source-line source))
+        (column (source-column source))
+        (count 0))
+    (declare (fixnum count))
+    (loop for character = (peek source)
+          until (or (null character) (delimiterp character))
+          do (unless (name-character-p character)
+               (fail source "~a can't stand in a name or a number"
+                     (character-description character)))
+             (setf count (push-token source character count))
+             (next source)
+             (check-size source))
+    (when (zerop count)
+      (fail source "~a can't stand here" (character-description (peek source))))
+    (if (number-start-p (source-token source) count)
+        (token-number source count line column)
+        (token-name source count line column))))
+
+(defun number-start-p (token count)
+  (declare (type (simple-array character (*)) token) (fixnum count))
+  (flet ((digit-at (i) (and (< i count) (char<= #\0 (schar token i) #\9))))
+    (or (digit-at 0)
+        (let ((i (if (find (schar token 0) "+-") 1 0)))
+          (or (digit-at i)
+              (and (< i count) (char= (schar token i) #\.) (digit-at (1+ i))))))))
+
+(defun token-number (source count line column)
+  (multiple-value-bind (number trouble) (parse-number (source-token source) count)
+    (or number
+        (let ((text (subseq (source-token source) 0 (min count 24))))
+          (ecase trouble
+            (:length (fail-at source line column "a number of ~d characters; at most ~d are read"
+                              count *number-limit*))
+            (:range (fail-at source line column
+                             "~a is out of range: numbers lie between 1e-300 and 1e300, or are 0"
+                             text))
+            (:zero (fail-at source line column "~a divides by zero" text))
+            (:syntax (fail-at source line column
+                              "~a is not a number; 12, -0.5, 1e-3 and 1/2 are" text)))))))
+
+(defun token-name (source count line column)
+  (when (> count (the fixnum *name-limit*))
+    (fail-at source line column "a name of ~d characters; at most ~d are read"
+             count *name-limit*))
+  (let ((text (source-token source)))
+    (when (and (= count 1) (char= (schar text 0) #\.))
+      (fail-at source line column "dotted pairs are not read"))
+    (canonical-name (nstring-upcase (subseq text 0 count)))))
+
+(defun read-all (source)
+  "Read all forms of SOURCE.  Returns their list and a table from each list in them to its line."
+  (let ((lines (make-hash-table :test #'eq)))
+    (setf (source-lines source) lines)
+    (values (loop for form = (read-datum source)
+                  until (eq form (end-of-data))
+                  collect form)
+            lines)))
+
+;;; Forms that come from the Lisp reader
+
+(defun canonical (form)
+  "Return FORM, which may come from the Lisp reader in any package, as this file's reader would
+have returned it.  Signals a SYNTAX-ERROR if it holds anything else, or too much of it."
+  (let ((room *record-limit*))
+    (labels ((refuse (control &rest arguments)
+               (error 'syntax-error
+                      :problems (list (make-problem :text (apply #'format nil control arguments)))))
+             (walk (form depth)
+               (when (minusp (decf room))
+                 (refuse "a form of more than ~d parts, or a circular one" *record-limit*))
+               (when (> depth *depth-limit*)
+                 (refuse "lists nest deeper than ~d" *depth-limit*))
+               (typecase form
+                 (null nil)
+                 (cons (loop for cell = form then (cdr cell)
+                             until (null cell)
+                             unless (consp cell)
+                               do (refuse "dotted pairs are not read: ~a" (form-text form))
+                             collect (walk (car cell) (1+ depth))))
+                 (symbol (canonical-name (string-upcase (symbol-name form))))
+                 (string (copy-seq form))
+                 (rational form)
+                 (float (or (as-double form)
+                            (refuse "a number out of range: numbers lie between 1e-300 and ~
+                                     1e300, or are 0")))
+                 (t (refuse "~a can't stand in a form" (type-of form))))))
+      (walk form 0))))

@@ -1,0 +1,95 @@
+;;;; frames.lisp -- the 24 matchings between the faces of the box and those of the grasp.
+;;;;
+;;;; The grasp has six faces of its own, the slots N1 N2 O1 O2 A1 A2, numbered 0 to 5.  A matching
+;;;; gives each slot a face of the box, so that N O A is a proper rotation of X Y Z.
+
+(in-package :supergrip)
+
+(defparameter +slots+ #(:n1 :n2 :o1 :o2 :a1 :a2)
+  "The faces of a grasp.  N1 lies on the + side of the axis N, N2 on the - side, and so on.")
+
+(defun slot-index (name)
+  "Return the slot, 0 to 5, that NAME names, or NIL."
+  (and (namep name) (position (symbol-name name) +slots+ :test #'string=)))
+
+(defstruct matching
+  "FACES holds the box face of each slot; AXES which box axis (0 to 2) each of N O A lies along;
+SIGNS 1 if it points the same way, -1 if not."
+  (index 0 :type fixnum)
+  (faces nil :type simple-vector)
+  (axes nil :type simple-vector)
+  (signs nil :type simple-vector))
+
+(defun permutation-sign (axes)
+  "Return 1 if the three AXES are an even permutation of 0 1 2, else -1."
+  (if (member axes '((0 1 2) (1 2 0) (2 0 1)) :test #'equal) 1 -1))
+
+(defun third-face (n1 a1)
+  "Return the face O1 that makes a proper rotation of N1 and A1."
+  (let* ((axis (- 3 (surface-axis n1) (surface-axis a1)))
+         (sign (* (surface-sign n1) (surface-sign a1)
+                  (permutation-sign (list (surface-axis n1) axis (surface-axis a1))))))
+    (find-if (lambda (face) (and (= (surface-axis face) axis) (= (surface-sign face) sign)))
+             '(0 1 2 3 4 5))))
+
+(defun all-matchings ()
+  "Return the 24 matchings in the order in which TRY enumerates them: N1, then A1, each in the
+order of the faces; O follows."
+  (let ((index -1))
+    (coerce (loop for n1 below 6
+                  append (loop for a1 below 6
+                               unless (= (surface-axis n1) (surface-axis a1))
+                                 collect (let* ((o1 (third-face n1 a1))
+                                                (firsts (list n1 o1 a1)))
+                                           (make-matching
+                                            :index (incf index)
+                                            :faces (coerce (loop for face in firsts
+                                                                 collect face
+                                                                 collect (opposite face))
+                                                           'simple-vector)
+                                            :axes (map 'simple-vector #'surface-axis firsts)
+                                            :signs (map 'simple-vector #'surface-sign firsts)))))
+            'simple-vector)))
+
+(defparameter +matchings+ (all-matchings)
+  "The 24 matchings, in order.  Sets of them are integers, one bit each.")
+
+(deftype matching-set () '(unsigned-byte 24))
+
+(defparameter +all-matchings+ (1- (ash 1 24)) "The set of all matchings.")
+
+(defun matchings-with (slot face)
+  "Return the set of the matchings that give SLOT the box face FACE."
+  (loop with set = 0
+        for matching across +matchings+
+        when (= face (svref (matching-faces matching) slot))
+          do (setf set (logior set (ash 1 (matching-index matching))))
+        finally (return set)))
+
+(defparameter +matchings-with+
+  (let ((sets (make-array '(6 6) :element-type '(unsigned-byte 24))))
+    (dotimes (slot 6 sets)
+      (dotimes (face 6)
+        (setf (aref sets slot face) (matchings-with slot face)))))
+  "The set of the matchings that give a slot (first index) a face of the box (second).")
+(declaim (type (simple-array (unsigned-byte 24) (6 6)) +matchings-with+))
+
+(defun turned (matching turn)
+  "Return MATCHING after a TURN of the grasp, a vector: slot i takes the face of slot TURN[i]."
+  (let ((faces (map 'simple-vector (lambda (slot) (svref (matching-faces matching) slot)) turn)))
+    (find faces +matchings+ :key #'matching-faces :test #'equalp)))
+
+(defparameter +turns+
+  '((:half-turn #(1 0 3 2 4 5))
+    (:third-turn #(2 3 4 5 0 1))
+    (:third-turn #(4 5 0 1 2 3)))
+  "The turns that may leave a grasp the same: the half-turn about A, and the two third-turns about
+the corner of N1 O1 A1.")
+
+(defun axis-name (axis)
+  "Return the name of AXIS, 0 to 5, of the box frame: \"along X\" to \"about Z\"."
+  (aref #("along X" "along Y" "along Z" "about X" "about Y" "about Z") axis))
+
+(defun matching-names (matching)
+  "Return the names of the box faces of MATCHING, in the order N1 N2 O1 O2 A1 A2."
+  (map 'list #'surface-name (matching-faces matching)))

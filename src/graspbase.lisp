@@ -1,0 +1,330 @@
+;;;; graspbase.lisp -- the grasp file: the gripper, helper functions and grasps, checked.
+
+(in-package :supergrip)
+
+(defstruct grasp
+  "A grasp mode.  USED is the list of the slots that it uses, PALM the slot that the palm faces,
+CONTACTS a list of (SLOT P Q), P and Q being registers.  The other parts are programs (see emit).
+VALID holds, for each box face, the set of the matchings that are possible if that face is
+constrained; SAME, for each matching, the set of those that are the same grasp, itself included."
+  (name "" :type string) form file line (index 0 :type fixnum)
+  (used '() :type list) (palm 0 :type fixnum)
+  (conditions-node nil) (conditions nil :type (or null function))
+  (offset nil :type (or null program))
+  (positions nil :type (or null program)) (contacts '() :type list)
+  (wrench nil :type (or null program))
+  (twist nil :type (or null program))
+  (valid (make-array 6 :element-type '(unsigned-byte 24)) :type (simple-array (unsigned-byte 24) (6)))
+  (same (make-array 24 :element-type '(unsigned-byte 24))
+   :type (simple-array (unsigned-byte 24) (24))))
+
+(defmethod print-object ((grasp grasp) stream)
+  (print-unreadable-object (grasp stream :type t)
+    (write-string (grasp-name grasp) stream)))
+
+(defstruct graspbase
+  "The gripper (an alist from name to double), the grasps, and the registers that their programs
+start from."
+  (gripper '() :type list)
+  (grasps '() :type list)
+  (registers (make-array +inputs-end+ :element-type 'double-float) :type registers))
+
+(defun find-grasp (graspbase name)
+  "Return the grasp of GRASPBASE that has NAME, or NIL."
+  (find name (graspbase-grasps graspbase) :key #'grasp-name :test #'string-equal))
+
+(defun dimension (graspbase name)
+  "Return the gripper's dimension NAME, a string, as a double."
+  (cdr (assoc name (graspbase-gripper graspbase) :test #'string=)))
+
+;;; The gripper
+
+(defparameter +dimensions+
+  '("FINGER-LENGTH" "FINGER-DIST" "FINGER-SPREAD" "FINGER-WIDTH" "DIST-PINCH" "WIDTH-HAND"
+    "SLIPPERY-U")
+  "The dimensions that SUPER-GRIP itself or the printed grasp needs; a gripper may have others.")
+
+(defun parse-dimension (name value form)
+  (cond ((not (namep name))
+         (complain form "~a is not the name of a dimension" (form-text name)))
+        ((name-in name '("U" "V" "T"))
+         (complain form "~a can't be a dimension: it means something else in a form" name))
+        ((not (and (realp value) (as-double value) (>= value 0)))
+         (complain form "~a is ~a; a dimension is a number from 0" name (form-text value)))
+        (t (cons (symbol-name name) (as-double value)))))
+
+(defun parse-gripper (plist form)
+  "Return the alist of the dimensions of PLIST, complaining of what is wrong."
+  (let ((dimensions '()))
+    (unless (evenp (length plist))
+      (complain form "a gripper is a list of names and numbers in turn"))
+    (loop for (name value) on plist by #'cddr
+          do (let ((entry (parse-dimension name value form)))
+               (cond ((null entry))
+                     ((assoc (car entry) dimensions :test #'string=)
+                      (complain form "~a is given twice" (car entry)))
+                     (t (push entry dimensions)))))
+    (dolist (name +dimensions+)
+      (unless (or (assoc name dimensions :test #'string=)
+                  (loop for key in plist by #'cddr thereis (name= key name)))
+        (complain form "~a is missing" name)))
+    (check-gripper dimensions form)
+    (nreverse dimensions)))
+
+(defun check-gripper (dimensions form)
+  "Complain of DIMENSIONS that contradict each other."
+  (flet ((size (name) (cdr (assoc name dimensions :test #'string=)))
+         (text (number) (form-text number)))
+    (let ((length (size "FINGER-LENGTH")) (dist (size "FINGER-DIST"))
+          (pinch (size "DIST-PINCH")) (width (size "FINGER-WIDTH"))
+          (spread (size "FINGER-SPREAD")))
+      (when (and length dist pinch (> pinch (+ dist (* 2 length))))
+        (complain form "DIST-PINCH is ~a, but fingers of two links of ~a cm that start ~a cm ~
+                        apart open to ~a at most" (text pinch) (text length) (text dist)
+                        (text (+ dist (* 2 length)))))
+      (when (and width spread (> width spread))
+        (complain form "FINGER-WIDTH is ~a, more than FINGER-SPREAD, ~a" (text width) (text spread)))
+      (when (and spread pinch (> spread pinch))
+        (complain form "FINGER-SPREAD is ~a, more than DIST-PINCH, ~a" (text spread) (text pinch))))))
+
+;;; Helper functions
+
+(defun parse-helper (form scope)
+  "Add the helper of FORM, (DEFUN name (parameter...) form), to SCOPE, or complain."
+  (let* ((name (and (consp (rest form)) (namep (second form)) (second form)))
+         (parameters (and (= (length form) 4) (listp (third form)) (third form)))
+         (*subject* (format nil "DEFUN ~a" (if name name "without a name"))))
+    (cond ((or (null name) (/= (length form) 4) (notevery #'namep parameters))
+           (complain form "a helper is (DEFUN name (parameter...) form)"))
+          ((name-in name (append (operators scope) +comparisons+ '("AND" "OR" "NOT" "LIST")))
+           (complain form "~a is already an operator" name))
+          (t
+           (let ((inner (copy-scope scope)))
+             (dolist (parameter parameters)
+               (setf inner (bind-variable inner (symbol-name parameter)
+                                          (make-node :op :parameter))))
+             (when (parse-number-form (fourth form) inner)
+               (push (list* (symbol-name name) (mapcar #'symbol-name parameters) (fourth form))
+                     (scope-functions scope))))))))
+
+;;; Grasps
+
+(defparameter +grasp-keys+
+  '("USED-SURFACES" "CONDITIONS" "OFFSET" "WRENCH" "TWIST" "CONTACTS" "PALM")
+  "The keys of a grasp; the last two may be absent.")
+
+(defun grasp-plist (plist form)
+  "Return an alist of the keys of PLIST, complaining of unknown, repeated and missing ones."
+  (let ((entries '()))
+    (unless (evenp (length plist))
+      (complain form "a grasp is a list of keys and values in turn: ~a has ~d parts"
+                (form-text plist) (length plist)))
+    (loop for (key value) on plist by #'cddr
+          do (cond ((not (name-in key +grasp-keys+))
+                    (complain form "unknown key ~a~a; keys are ~{~a~^, ~}" (form-text key)
+                              (if (namep key) (suggestion (symbol-name key) +grasp-keys+) "")
+                              +grasp-keys+))
+                   ((assoc key entries :test #'name=) (complain form "~a is given twice" key))
+                   (t (push (cons (symbol-name key) value) entries))))
+    (dolist (key (subseq +grasp-keys+ 0 5) entries)
+      (unless (assoc key entries :test #'string=)
+        (complain form "~a is missing" key)))))
+
+(defun parse-used (value form)
+  (let ((slots (and (consp value) (mapcar #'slot-index value))))
+    (cond ((or (null slots) (member nil slots))
+           (complain form "~a: USED-SURFACES are some of N1 N2 O1 O2 A1 A2" (form-text value)))
+          ((/= (length slots) (length (remove-duplicates slots)))
+           (complain form "~a: the same surface twice" (form-text value)))
+          (t slots))))
+
+(defun parse-palm (entry used form)
+  "Return the slot of the palm: by default the used face of A."
+  (let ((slot (if entry
+                  (slot-index (cdr entry))
+                  (find-if (lambda (slot) (member slot used)) '(5 4)))))
+    (cond ((null slot)
+           (complain form (if entry "~a: PALM is one of N1 N2 O1 O2 A1 A2"
+                              "PALM is missing, and no face of A is used~*")
+                     (and entry (form-text (cdr entry)))))
+          ((not (member slot used))
+           (complain form "the palm faces ~a, which is not one of USED-SURFACES"
+                     (svref +slots+ slot)))
+          (t slot))))
+
+(defun parse-contact (contact used scope form)
+  "Return (SLOT NODE NODE) of CONTACT, (FACE P Q), or NIL after a complaint."
+  (let ((slot (and (consp contact) (slot-index (first contact)))))
+    (cond ((or (null slot) (/= (length contact) 3))
+           (complain form "~a is not a contact: a face, and its place on it along the two other ~
+                           axes, as (N1 0 0)" (form-text contact)))
+          ((not (member slot used))
+           (complain form "a finger is on ~a, which is not one of USED-SURFACES"
+                     (svref +slots+ slot)))
+          (t (let ((p (parse-number-form (second contact) scope))
+                   (q (parse-number-form (third contact) scope)))
+               (and p q (list slot p q)))))))
+
+(defun parse-contacts (entry used palm scope form)
+  "Return the contacts, by default one in the middle of each used face but the palm's."
+  (let ((contacts (if entry
+                      (and (listp (cdr entry)) (cdr entry))
+                      (loop for slot in used
+                            unless (eql slot palm) collect (list (svref +slots+ slot) 0 0)))))
+    (cond ((null contacts) (complain form "CONTACTS lists no contact"))
+          (t (let ((parsed (loop for contact in contacts
+                                 collect (parse-contact contact used scope form))))
+               (and (notany #'null parsed) parsed))))))
+
+(defstruct draft
+  "A grasp whose forms are checked and are nodes still."
+  name form file line used palm conditions offset contacts wrench twist)
+
+(defun negative-twist (node)
+  "Return the first constant below zero in NODE, a list of six, or NIL."
+  (and node (eq (node-op node) :list)
+       (find-if (lambda (entry) (and (constant-p entry) (minusp (constant-value entry))))
+                (node-args node))))
+
+(defun parse-grasp (name plist form scope)
+  "Return the draft of the grasp NAME, whose description is PLIST, or NIL after a complaint."
+  (let ((*subject* (format nil "GRASP ~a" name)) (*form* form)
+        (entries (let ((*subject* (format nil "GRASP ~a" name))) (grasp-plist plist form))))
+    (flet ((value (key) (cdr (assoc key entries :test #'string=)))
+           (given (key) (assoc key entries :test #'string=)))
+      (macrolet ((part (key form)
+                   `(and (given ,key) (let ((*place* ,key)) ,form))))
+        (let* ((used (part "USED-SURFACES" (parse-used (value "USED-SURFACES") form)))
+               (palm (and used (let ((*place* "PALM")) (parse-palm (given "PALM") used form))))
+               (contacts (and used palm
+                              (let ((*place* "CONTACTS"))
+                                (parse-contacts (given "CONTACTS") used palm scope form))))
+               (conditions (part "CONDITIONS" (parse-test (value "CONDITIONS") scope)))
+               (offset (part "OFFSET" (parse-six (value "OFFSET") scope)))
+               (wrench (part "WRENCH" (parse-six (value "WRENCH") scope)))
+               (twist (part "TWIST" (parse-six (value "TWIST") scope))))
+          (when (negative-twist twist)
+            (let ((*place* "TWIST"))
+              (setf twist (complain form "an entry below 0: mobility is 0 or more"))))
+          (and used palm contacts conditions offset wrench twist
+               (make-draft :name (symbol-name name) :form form :file *file*
+                           :line (and *lines* (gethash form *lines*))
+                           :used used :palm palm :contacts contacts :conditions conditions
+                           :offset offset :wrench wrench :twist twist)))))))
+
+;;; From drafts to grasps
+
+(defun carried-onto-itself (slots turn)
+  (null (set-exclusive-or slots (mapcar (lambda (slot) (svref turn slot)) slots))))
+
+(defun allowed-turn-p (kind turn used fingers)
+  "True if a grasp that uses the slots USED, with FINGERS, the slots of its contacts, is the same
+after TURN as far as the paper's index can tell, which takes the lesser of two directions."
+  (and (carried-onto-itself used turn)
+       (carried-onto-itself (remove-duplicates fingers) turn)
+       (or (eq kind :half-turn)
+           ;; Another axis takes the place of each, so the fingers must be as many.
+           (loop for slot in fingers
+                 always (= (count slot fingers) (count (svref turn slot) fingers))))))
+
+(defun same-matchings (used fingers)
+  "Return, for each matching, the set of those that are the same grasp."
+  (let ((sets (make-array 24 :element-type '(unsigned-byte 24))))
+    (loop for matching across +matchings+
+          do (setf (aref sets (matching-index matching))
+                   (reduce #'logior
+                           (loop for (kind turn) in +turns+
+                                 when (allowed-turn-p kind turn used fingers)
+                                   collect (ash 1 (matching-index (turned matching turn))))
+                           :initial-value (ash 1 (matching-index matching)))))
+    sets))
+
+(defun valid-matchings (used)
+  "Return, for each box face, the set of the matchings in which none of the slots USED has it."
+  (let ((sets (make-array 6 :element-type '(unsigned-byte 24) :initial-element +all-matchings+)))
+    (dotimes (face 6 sets)
+      (dolist (slot used)
+        (setf (aref sets face) (logandc2 (aref sets face) (aref +matchings-with+ slot face)))))))
+
+(defun finish-grasp (draft layout)
+  "Return the grasp of DRAFT, its forms emitted for LAYOUT."
+  (flet ((six (node)
+           (emit-program layout (lambda (code) (emit-six node code)))))
+    (release-registers layout)
+    (let* ((contacts (draft-contacts draft))
+           (fingers (mapcar #'first contacts))
+           (positions (emit-program layout (lambda (code)
+                                             (loop for (nil p q) in contacts
+                                                   collect (emit p code) collect (emit q code)))))
+           (places (program-results positions)))
+      (prog1 (make-grasp
+              :name (draft-name draft) :form (draft-form draft) :file (draft-file draft)
+              :line (draft-line draft)
+              :used (draft-used draft) :palm (draft-palm draft)
+              :conditions-node (draft-conditions draft)
+              :conditions (emit-test (draft-conditions draft) (make-code :layout layout))
+              :offset (six (draft-offset draft))
+              :positions positions
+              :contacts (loop for slot in fingers
+                              for (p q) on places by #'cddr
+                              collect (list slot p q))
+              :wrench (six (draft-wrench draft))
+              :twist (six (draft-twist draft))
+              :valid (valid-matchings (draft-used draft))
+              :same (same-matchings (draft-used draft) fingers))
+        (release-registers layout)))))
+
+;;; The file
+
+(defun definition-form (form)
+  "Return the name and the list of FORM, (SETQ name '(...)), or NIL after a complaint."
+  (if (and (part-named-p form "SETQ") (= (length form) 3) (namep (second form))
+           (part-named-p (third form) "QUOTE") (consp (second (third form))))
+      (values (second form) (second (third form)))
+      (complain form "a grasp file holds (SETQ GRIPPER '(...)), (DEFUN name (parameter...) form) ~
+                      and (SETQ grasp '(...)), not ~a" (form-text form))))
+
+(defun gripper-form-p (form)
+  (and (part-named-p form "SETQ") (consp (rest form)) (name= (second form) "GRIPPER")))
+
+(defun global-scope (gripper)
+  (let ((scope (make-scope)))
+    (setf (scope-variables scope)
+          (list* (cons "U" (input-node +u+)) (cons "V" (input-node +v+))
+                 (loop for (name . number) in gripper
+                       collect (cons name (constant-node scope number))))
+          (scope-globals scope) (scope-variables scope))
+    scope))
+
+(defun build-gripper (forms)
+  "Return the gripper that the one (SETQ GRIPPER ...) among FORMS gives, or complain."
+  (let ((grippers (remove-if-not #'gripper-form-p forms))
+        (*subject* "GRIPPER"))
+    (cond ((null grippers) (complain nil "there is no (SETQ GRIPPER '(...))"))
+          (t
+           (dolist (second (rest grippers))
+             (complain second "the gripper is given twice"))
+           (multiple-value-bind (name plist) (definition-form (first grippers))
+             (and name (parse-gripper plist (first grippers))))))))
+
+(defun build-graspbase (forms)
+  "Return the graspbase of FORMS, those of a grasp file, in their order.
+Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
+  (let* ((gripper (build-gripper forms))
+         (scope (global-scope gripper))
+         (drafts '()))
+    (dolist (form forms)
+      (let ((*form* form))
+        (cond ((gripper-form-p form))
+              ((part-named-p form "DEFUN") (parse-helper form scope))
+              (t (multiple-value-bind (name plist) (definition-form form)
+                   (let ((draft (and name (parse-grasp name plist form scope))))
+                     (cond ((null draft))
+                           ((find (draft-name draft) drafts :key #'draft-name :test #'string=)
+                            (let ((*subject* (format nil "GRASP ~a" name)))
+                              (complain form "there is a grasp of this name before it")))
+                           (t (push draft drafts)))))))))
+    (let* ((layout (scope-layout scope))
+           (grasps (loop for draft in (reverse drafts) collect (finish-grasp draft layout))))
+      (loop for grasp in grasps for index from 0 do (setf (grasp-index grasp) index))
+      (make-graspbase :gripper gripper :grasps grasps :registers (make-registers layout)))))

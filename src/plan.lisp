@@ -1,0 +1,193 @@
+;;;; plan.lisp -- a plan: a pure function of a box, knowledge and gamma.
+
+(in-package :supergrip)
+
+(defparameter *gamma* 0.5d0
+  "The selection parameter of the quality index: Q = gamma u_t + (1 - gamma) u_w.")
+
+(defstruct (plan (:constructor %make-plan) (:copier nil))
+  "What was decided for a box, and all that led to it."
+  (box nil :type box) (knowledge nil :type knowledge) (gamma 0.5d0 :type double-float)
+  (stop nil) (best nil) (candidates '() :type list) (log '() :type list)
+  (memory nil :type memory))
+
+(defmethod print-object ((plan plan) stream)
+  (print-unreadable-object (plan stream :type t)
+    (if (plan-best plan)
+        (format stream "~a (~{~a~^ ~}) Q=~,3f" (plan-grasp plan) (plan-matching plan)
+                (plan-quality plan))
+        (format stream "can't: ~a" (plan-reason plan)))))
+
+(defun plan (box &key (knowledge *knowledge*) (gamma *gamma*))
+  "Return the plan for BOX, a box or a description of one (see PARSE-BOX).
+KNOWLEDGE holds the rules and grasps to use, GAMMA from 0 to 1 weighs velocities against forces.
+A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from several threads."
+  (let* ((box (if (box-p box) box (parse-box box)))
+         (gamma (check-gamma gamma))
+         (rulebase (knowledge-rulebase knowledge))
+         (attempt (make-attempt box (knowledge-graspbase knowledge) gamma))
+         (memory (make-memory (knowledge-predicates knowledge) attempt)))
+    (assert-box memory (knowledge-predicates knowledge) box
+                (knowledge-finger-width knowledge) (knowledge-finger-spread knowledge)
+                (knowledge-dist-pinch knowledge) (knowledge-slippery-u knowledge))
+    (let ((stop (run-rules rulebase memory)))
+      (%make-plan :box box :knowledge knowledge :gamma gamma :stop stop
+                  :best (and (not (eq (and stop (stop-verdict stop)) :cant))
+                             (attempt-best attempt))
+                  :candidates (reverse (attempt-candidates attempt))
+                  :log (reverse (memory-log memory))
+                  :memory memory))))
+
+(defun check-gamma (gamma)
+  (let ((number (and (realp gamma) (as-double gamma))))
+    (if (and number (<= 0d0 number 1d0))
+        number
+        (error 'gamma-error :gamma gamma))))
+
+(define-condition gamma-error (supergrip-error)
+  ((gamma :initarg :gamma :reader gamma-error-gamma))
+  (:report (lambda (condition stream)
+             (format stream "gamma is ~a; it is a number from 0, forces alone, to 1, ~
+                             velocities alone" (gamma-error-gamma condition))))
+  (:documentation "The selection parameter is no number from 0 to 1."))
+
+(defun plan-verdict (plan)
+  "Return :GRASP if PLAN found a grasp, :CANT if the box can't be grasped."
+  (if (plan-best plan) :grasp :cant))
+
+(defun plan-possible (plan)
+  "Return the possible grasps of PLAN, candidates, the best first; equals as they were tried."
+  (stable-sort (remove :possible (plan-candidates plan) :key #'%candidate-outcome :test-not #'eq)
+               #'> :key #'%candidate-quality))
+
+(defun plan-rejected (plan)
+  "Return the candidates of PLAN that failed, in the order in which they were tried."
+  (remove :possible (plan-candidates plan) :key #'%candidate-outcome))
+
+(defun plan-assertions (plan)
+  "Return the assertions at the end of PLAN: a list a predicate, its words followed by its lists of
+surfaces, all strings."
+  (assertions (plan-memory plan) (knowledge-predicates (plan-knowledge plan))))
+
+(defun plan-grasp (plan)
+  "Return the name of the best grasp of PLAN, a string, or NIL."
+  (and (plan-best plan) (candidate-grasp (plan-best plan))))
+
+(defun plan-matching (plan)
+  "Return the matching of the best grasp of PLAN: the names of the faces that N1 N2 O1 O2 A1 A2
+take; or NIL."
+  (and (plan-best plan) (candidate-matching (plan-best plan))))
+
+(defun plan-quality (plan)
+  "Return the quality index of the best grasp of PLAN, a double, or NIL."
+  (and (plan-best plan) (candidate-quality (plan-best plan))))
+
+;;; Candidates
+
+(defun candidate-grasp (candidate)
+  "Return the name of the grasp of CANDIDATE, a string."
+  (grasp-name (%candidate-grasp candidate)))
+
+(defun candidate-matching (candidate)
+  "Return the names of the box faces that N1 N2 O1 O2 A1 A2 of CANDIDATE take."
+  (matching-names (%candidate-matching candidate)))
+
+(defun candidate-outcome (candidate)
+  "Return :POSSIBLE, or the step that CANDIDATE failed: :CONDITIONS, :OFFSET, :FINGERS, :OPEN or
+:LIFTING."
+  (%candidate-outcome candidate))
+
+(defun candidate-quality (candidate)
+  "Return the quality index of CANDIDATE, a double, or NIL if it is not possible."
+  (and (eq (candidate-outcome candidate) :possible) (%candidate-quality candidate)))
+
+(defun axis-or-nil (candidate limit)
+  (and (eq (candidate-outcome candidate) :possible) (>= limit 0) (axis-name limit)))
+
+(defun candidate-force-axis (candidate)
+  "Return the axis that limits u_w of CANDIDATE, as \"about Y\", or NIL if no force is needed."
+  (axis-or-nil candidate (%candidate-force-limit candidate)))
+
+(defun candidate-velocity-axis (candidate)
+  "Return the axis that limits u_t of CANDIDATE, as \"along Z\", or NIL if no velocity is needed."
+  (axis-or-nil candidate (%candidate-velocity-limit candidate)))
+
+(defun candidate-force-radius (candidate)
+  "Return u_w of CANDIDATE, or NIL if the task needs no force or it is not possible."
+  (and (candidate-force-axis candidate) (%candidate-force-radius candidate)))
+
+(defun candidate-velocity-radius (candidate)
+  "Return u_t of CANDIDATE, or NIL if the task needs no velocity or it is not possible."
+  (and (candidate-velocity-axis candidate) (%candidate-velocity-radius candidate)))
+
+(defun candidate-offset (candidate)
+  "Return the grasp centre of CANDIDATE from the box centre: three numbers along X Y Z, in cm."
+  (mapcar #'without-sign-of-zero
+          (list (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))
+
+(defun without-sign-of-zero (number)
+  (+ number 0d0))
+
+(defun unit-vector (face sign)
+  "Return the outward normal of the box face FACE, times SIGN, as a list along X Y Z."
+  (loop for axis below 3
+        collect (if (= axis (surface-axis face))
+                    (coerce (* sign (surface-sign face)) 'double-float)
+                    0d0)))
+
+(defun candidate-approach (candidate)
+  "Return the direction of approach of CANDIDATE: a unit vector in the box frame, from the palm to
+the box."
+  (unit-vector (svref (matching-faces (%candidate-matching candidate))
+                      (grasp-palm (%candidate-grasp candidate)))
+               -1))
+
+(defun replay (candidate plan)
+  "Take CANDIDATE of PLAN through the steps again, and return the attempt that holds its figures."
+  (let ((attempt (make-attempt (plan-box plan) (knowledge-graspbase (plan-knowledge plan))
+                               (plan-gamma plan))))
+    (run-steps attempt (make-candidate (%candidate-grasp candidate)
+                                       (%candidate-matching candidate)))
+    attempt))
+
+(defun candidate-contacts (candidate plan)
+  "Return the contacts of CANDIDATE, which is possible in PLAN: a list of plists with :SURFACE, the
+name of a box face, :POSITION and :NORMAL, lists along X Y Z in the box frame at the box centre;
+positions in cm, the normals point inward."
+  (let* ((attempt (replay candidate plan))
+         (registers (attempt-registers attempt))
+         (matching (%candidate-matching candidate)))
+    (loop for (slot p q) in (grasp-contacts (%candidate-grasp candidate))
+          for face = (svref (matching-faces matching) slot)
+          collect (list :surface (surface-name face)
+                        :position (contact-position attempt matching slot
+                                                    (aref registers p) (aref registers q))
+                        :normal (unit-vector face -1)))))
+
+(defun contact-position (attempt matching slot p q)
+  "Return the place, along X Y Z, of a finger on SLOT at P, Q along its two other axes."
+  (let ((position (make-list 3))
+        (rest (list p q)))
+    (dotimes (i 3 position)
+      (setf (nth (svref (matching-axes matching) i) position)
+            (without-sign-of-zero
+             (* (svref (matching-signs matching) i)
+                (if (= i (floor slot 2))
+                    (* (if (evenp slot) 0.5d0 -0.5d0) (aref (attempt-lengths attempt) i))
+                    (+ (aref (attempt-centre attempt) i) (pop rest)))))))))
+
+(defun candidate-wrench (candidate plan)
+  "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, gravity's load not taken off:
+six numbers, forces in finger forces, torques in finger force x cm.  NIL where it failed before."
+  (and (member (candidate-outcome candidate) '(:possible :lifting))
+       (let ((attempt (replay candidate plan)))
+         ;; JUDGE takes the load off in place.
+         (if (eq (candidate-outcome candidate) :possible)
+             (map 'list #'+ (attempt-wrench attempt) (attempt-load attempt))
+             (coerce (attempt-wrench attempt) 'list)))))
+
+(defun candidate-twist (candidate plan)
+  "Return the mobility of CANDIDATE of PLAN along X Y Z and about X Y Z, six numbers.
+NIL where it failed before."
+  (and (member (candidate-outcome candidate) '(:possible :lifting))
+       (coerce (attempt-twist (replay candidate plan)) 'list)))

@@ -1,0 +1,67 @@
+;;;; quality.lisp -- how good a grasp is for a task: embedded radii, and their mixture.
+
+(in-package :supergrip)
+
+(defun embedded-radius (need have)
+  "Return the radius of the largest NEED ellipsoid inside HAVE, and the axis that limits it.
+
+NEED  six doubles >= 0: what the task asks along X, Y, Z and about X, Y, Z, the effect of the
+      offset included.
+HAVE  six doubles on the same axes: what the grasp exerts, gravity's load taken off.
+
+The radius is the least HAVE/NEED over the axes with NEED > 0; the second value is that axis, 0 to
+5, or -1 if no axis is needed.
+
+Source: the paper, Description, u_t and u_w.  An upper bound of the true radius: see README, The
+index."
+  (declare (type six need have))
+  (let ((radius 0d0) (limit -1))
+    (declare (double-float radius) (type (integer -1 5) limit))
+    (dotimes (axis 6 (values radius limit))
+      (let ((needed (aref need axis)))
+        (when (> needed 0d0)
+          (let ((ratio (/ (aref have axis) needed)))
+            (when (or (minusp limit) (< ratio radius))
+              (setf radius ratio limit axis))))))))
+
+(declaim (inline add-turned))
+(defun add-turned (offset from needs out to)
+  "Add to OUT, from the place TO, what an OFFSET (three lengths, not below 0) of the grasp centre
+makes of NEEDS from the place FROM: |o_Y| n_Z + |o_Z| n_Y to the first, and so on cyclically."
+  (declare (type three offset) (type six needs out) (type (integer 0 3) from to))
+  (dotimes (i 3)
+    (let ((j (mod (+ i 1) 3)) (k (mod (+ i 2) 3)))
+      (incf (aref out (+ to i))
+            (+ (* (aref offset j) (aref needs (+ from k)))
+               (* (aref offset k) (aref needs (+ from j))))))))
+
+(defun shift-force (needs offset out)
+  "Put into OUT the forces and torques NEEDS at the box centre as they are at the grasp centre,
+OFFSET from it: the torques grow.  Source: reconstructed, see README, Reconstruction."
+  (declare (type six needs out) (type three offset))
+  (replace out needs)
+  (add-turned offset 0 needs out 3))
+
+(defun shift-velocity (needs offset out)
+  "Put into OUT the velocities NEEDS at the box centre as they are at the grasp centre, OFFSET from
+it: those along the axes grow.  Source: reconstructed, see README, Reconstruction."
+  (declare (type six needs out) (type three offset))
+  (replace out needs)
+  (add-turned offset 3 needs out 0))
+
+(defun put-load (weight offset out)
+  "Put into OUT the load of gravity: WEIGHT along Z, and the torques that it causes at the grasp
+centre, OFFSET from the box centre."
+  (declare (double-float weight) (type three offset) (type six out))
+  (fill out 0d0)
+  (setf (aref out 2) weight
+        (aref out 3) (* (aref offset 1) weight)
+        (aref out 4) (* (aref offset 0) weight)))
+
+(defun quality-index (gamma velocity-radius velocity-limit force-radius force-limit)
+  "Return Q = GAMMA u_t + (1 - GAMMA) u_w; where a task needs only forces or only velocities (its
+other limit is -1), the radius of that kind alone.  Source: the paper, Description."
+  (declare (double-float gamma velocity-radius force-radius) (fixnum velocity-limit force-limit))
+  (cond ((minusp velocity-limit) force-radius)
+        ((minusp force-limit) velocity-radius)
+        (t (+ (* gamma velocity-radius) (* (- 1d0 gamma) force-radius)))))

@@ -1,0 +1,50 @@
+;;;; repl.lisp -- SUPER-GRIP at the REPL: (setq box '(...)), then (forward-chain).
+
+(in-package :supergrip)
+
+(defvar *plan* nil "The plan that FORWARD-CHAIN made last, or NIL.")
+
+(defvar *box* nil)
+(setf (documentation '*box* 'variable) "The box that BOX was set to last, or NIL.")
+
+(define-condition no-box-error (supergrip-error) ()
+  (:report "there is no box yet: set one as (setq box '((SIZE 12 2 2) (WEIGHT 0.2) ...))")
+  (:documentation "FORWARD-CHAIN was called before a box was set."))
+
+(defun current-box ()
+  "Return the box that was set last, or NIL."
+  *box*)
+
+(defun (setf current-box) (description)
+  "Check DESCRIPTION and make it the box of FORWARD-CHAIN.  On a BOX-ERROR the former one stays."
+  (setf *box* (if (box-p description) description (parse-box description))))
+
+(define-symbol-macro box (current-box))
+
+(defun forward-chain (&key ((:box given) *box*) (knowledge *knowledge*) (gamma *gamma*)
+                        (stream *standard-output*))
+  "Choose the best grasp for the box, print what the rules say, what is possible and what is best,
+and return the plan, which *PLAN* also holds.
+
+BOX is a box or a description of one, by default what (setq box ...) gave; GAMMA weighs velocities
+(1) against forces (0); STREAM is where to print, NIL for not at all."
+  (unless given
+    (error 'no-box-error))
+  (setf *plan* (plan given :knowledge knowledge :gamma gamma))
+  (when stream
+    (write-transcript *plan* stream))
+  *plan*)
+
+(defun need-plan (plan)
+  (or plan (error 'no-plan-error)))
+
+(define-condition no-plan-error (supergrip-error) ()
+  (:report "there is no plan yet: call (forward-chain) first")
+  (:documentation "A question about a plan was asked before there was one."))
+
+(defun possible-grasps (&optional (plan *plan*))
+  "Return the paper's list POSSIBLE-GRASPS of PLAN, the best first: for each possible grasp its
+name, its quality and its matching."
+  (loop for candidate in (plan-possible (need-plan plan))
+        collect (list (candidate-grasp candidate) (candidate-quality candidate)
+                      (candidate-matching candidate))))

@@ -1,0 +1,49 @@
+;;;; transcript.lisp -- a plan in the lines of the paper's session.
+
+(in-package :supergrip)
+
+(defun three-decimals (number)
+  "Return NUMBER with three decimals, as 0.770."
+  (format nil "~,3f" number))
+
+(defun short-decimal (number)
+  "Return NUMBER rounded to three decimals, zeros at the end dropped but one: 0.86, 1.0."
+  (let* ((text (string-right-trim "0" (three-decimals number))))
+    (if (char= (char text (1- (length text))) #\.)
+        (concatenate 'string text "0")
+        text)))
+
+(defun write-event (event rulebase stream)
+  "Write EVENT of a log, the fact that a rule remembered."
+  (multiple-value-bind (predicate packed) (event-fact event rulebase)
+    (format stream "(RULE ~a SAYS ~a~@[ (~{~a~^ ~})~])~%"
+            (rule-name (event-rule event rulebase)) (predicate-text predicate)
+            (pack-names packed))))
+
+(defun write-candidate (candidate stream)
+  "Write the line of CANDIDATE, if it is possible."
+  (when (candidate-quality candidate)
+    (format stream "(~a IS O.K. Q=~a, MATCHING: (~{~a~^ ~}))~%"
+            (candidate-grasp candidate) (three-decimals (candidate-quality candidate))
+            (candidate-matching candidate))))
+
+(defun write-verdict (plan stream)
+  (let ((stop (plan-stop plan)))
+    (cond ((plan-best plan)
+           (format stream "(BEST GRASP IS ~a WITH MATCHING (~{~a~^ ~}))~%(THE QUALITY INDEX IS ~a)~%"
+                   (plan-grasp plan) (plan-matching plan) (short-decimal (plan-quality plan))))
+          ((and stop (eq (stop-verdict stop) :cant))
+           (format stream "(RULE ~a SAYS CANT ~a)~%" (rule-name (stop-rule stop))
+                   (plan-reason plan)))
+          (t (format stream "(CANT GRASP ~a)~%" (plan-reason plan))))))
+
+(defun write-transcript (plan &optional (stream *standard-output*))
+  "Write PLAN to STREAM in the lines of the paper's session."
+  (let ((rulebase (knowledge-rulebase (plan-knowledge plan)))
+        (*print-pretty* nil))
+    (dolist (event (plan-log plan))
+      (if (candidate-p event)
+          (write-candidate event stream)
+          (write-event event rulebase stream)))
+    (write-verdict plan stream)
+    (format stream "--END--~%")))

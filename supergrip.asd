@@ -1,0 +1,48 @@
+;;;; supergrip.asd -- the systems of SUPER-GRIP.
+
+(defsystem "supergrip"
+  :description "An expert system that chooses the best grasp of a three-fingered gripper on a box."
+  :version "0.1.0"
+  :author "The SUPER-GRIP developers"
+  :license "MIT"
+  :depends-on ("supergrip/chainer")
+  :pathname "src/"
+  :serial t
+  :components ((:file "package")
+               (:file "frames")
+               (:file "box")
+               (:file "forms")
+               (:file "emit")
+               (:file "graspbase")
+               (:file "quality")
+               (:file "try")
+               (:file "knowledge")
+               (:file "plan")
+               (:file "failure")
+               (:file "transcript")
+               (:file "repl")
+               (:static-file "boot.lisp"))
+  :in-order-to ((test-op (test-op "supergrip/test"))))
+
+(defsystem "supergrip/chainer"
+  :description "The upper level alone: the data reader, and an s-expression forward chainer."
+  :version "0.1.0"
+  :license "MIT"
+  :pathname "src/"
+  :serial t
+  :components ((:module "data"
+                :serial t
+                :components ((:file "package")
+                             (:file "conditions")
+                             (:file "names")
+                             (:file "numbers")
+                             (:file "reader")))
+               (:module "chainer"
+                :serial t
+                :components ((:file "package")
+                             (:file "surfaces")
+                             (:file "memory")
+                             (:file "rulebase")
+                             (:file "match")
+                             (:file "chainer"))))
+  :in-order-to ((test-op (test-op "supergrip/test"))))
