@@ -45,4 +45,31 @@
                              (:file "rulebase")
                              (:file "match")
                              (:file "chainer"))))
-  :in-order-to ((test-op (test-op "supergrip/test"))))
+  :in-order-to ((test-op (test-op "supergrip/chainer-test"))))
+
+(defsystem "supergrip/chainer-test"
+  :description "The tests of the upper level, which need nothing of the lower."
+  :license "MIT"
+  :depends-on ("supergrip/chainer" "fiveam")
+  :pathname "t/"
+  :serial t
+  :components ((:file "package")
+               (:file "reader")
+               (:file "chainer"))
+  :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))
+
+(defsystem "supergrip/test"
+  :description "All tests."
+  :license "MIT"
+  :depends-on ("supergrip" "supergrip/chainer-test")
+  :pathname "t/"
+  :serial t
+  :components ((:file "oracle")
+               (:file "random")
+               (:file "paper")
+               (:file "statics")
+               (:file "rules")
+               (:file "properties")
+               (:file "errors")
+               (:file "scripts"))
+  :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))

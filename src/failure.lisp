@@ -37,13 +37,18 @@
        (format nil "~a: ~a is not ~a ~a" (form-text (node-form node))
                (figure (aref registers a)) (symbol-name (node-op node))
                (figure (aref registers b)))))
+    (:or (format nil "~{~a, and ~a~}" (loop for part in (node-args node)
+                                            collect (describe-test part registers))))
+    (:and (describe-test (failing-test node registers) registers))
     (t (format nil "~a does not hold" (form-text (node-form node))))))
 
 (defun describe-condition-failure (candidate attempt)
   (let ((grasp (%candidate-grasp candidate))
         (registers (attempt-registers attempt)))
     (handler-case
-        (describe-test (failing-test (grasp-conditions-node grasp) registers) registers)
+        (progn
+          (funcall (grasp-conditions grasp) registers)
+          (describe-test (failing-test (grasp-conditions-node grasp) registers) registers))
       (arithmetic-error () "a form of CONDITIONS has no value"))))
 
 (defun describe-offset-failure (candidate attempt)

@@ -74,7 +74,7 @@ start from."
 (defun check-gripper (dimensions form)
   "Complain of DIMENSIONS that contradict each other."
   (flet ((size (name) (cdr (assoc name dimensions :test #'string=)))
-         (text (number) (form-text number)))
+         (text (number) (figure number)))
     (let ((length (size "FINGER-LENGTH")) (dist (size "FINGER-DIST"))
           (pinch (size "DIST-PINCH")) (width (size "FINGER-WIDTH"))
           (spread (size "FINGER-SPREAD")))

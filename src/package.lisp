@@ -25,11 +25,9 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-offset #:candidate-contacts #:candidate-approach
    #:candidate-wrench #:candidate-twist #:candidate-failure
    #:try-grasp
-   ;; grasps
-   #:grasp-wrench
    ;; conditions, from the data layer
    #:supergrip-error #:input-error #:input-error-problems #:syntax-error #:box-error
-   #:knowledge-error #:retry
+   #:knowledge-error #:retry #:no-box-error #:no-plan-error #:no-grasp-error #:gamma-error
    #:problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text))
 

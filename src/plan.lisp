@@ -22,21 +22,51 @@
   "Return the plan for BOX, a box or a description of one (see PARSE-BOX).
 KNOWLEDGE holds the rules and grasps to use, GAMMA from 0 to 1 weighs velocities against forces.
 A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from several threads."
+  (multiple-value-bind (attempt memory) (start-plan box knowledge gamma)
+    (let ((stop (run-rules (knowledge-rulebase knowledge) memory)))
+      (finish-plan attempt memory knowledge stop))))
+
+(defun try-grasp (name box &key (knowledge *knowledge*) (gamma *gamma*))
+  "Return a plan for BOX in which no rule has run: the grasp NAME, a string or a symbol, was tried
+in all matchings that use no constrained face, equivalent ones once.  Other arguments as for PLAN."
+  (multiple-value-bind (attempt memory) (start-plan box knowledge gamma)
+    (let ((grasp (find-grasp (knowledge-graspbase knowledge) (string name))))
+      (unless grasp
+        (error 'no-grasp-error :name name :knowledge knowledge))
+      (try-matchings attempt grasp +all-matchings+
+                     (lambda (candidate) (push candidate (memory-log memory))))
+      (finish-plan attempt memory knowledge nil))))
+
+(define-condition no-grasp-error (supergrip-error)
+  ((name :initarg :name :reader no-grasp-error-name)
+   (knowledge :initarg :knowledge :reader no-grasp-error-knowledge))
+  (:report (lambda (condition stream)
+             (let ((name (string (no-grasp-error-name condition)))
+                   (known (mapcar #'grasp-name
+                                  (knowledge-grasps (no-grasp-error-knowledge condition)))))
+               (format stream "there is no grasp ~a~a; grasps are ~{~a~^, ~}" name
+                       (suggestion (string-upcase name) known) known))))
+  (:documentation "A grasp was named that the database lacks."))
+
+(defun start-plan (box knowledge gamma)
+  "Return an attempt at BOX, and a memory that holds the preliminary assertions."
   (let* ((box (if (box-p box) box (parse-box box)))
-         (gamma (check-gamma gamma))
-         (rulebase (knowledge-rulebase knowledge))
-         (attempt (make-attempt box (knowledge-graspbase knowledge) gamma))
+         (attempt (make-attempt box (knowledge-graspbase knowledge) (check-gamma gamma)))
          (memory (make-memory (knowledge-predicates knowledge) attempt)))
     (assert-box memory (knowledge-predicates knowledge) box
                 (knowledge-finger-width knowledge) (knowledge-finger-spread knowledge)
                 (knowledge-dist-pinch knowledge) (knowledge-slippery-u knowledge))
-    (let ((stop (run-rules rulebase memory)))
-      (%make-plan :box box :knowledge knowledge :gamma gamma :stop stop
-                  :best (and (not (eq (and stop (stop-verdict stop)) :cant))
-                             (attempt-best attempt))
-                  :candidates (reverse (attempt-candidates attempt))
-                  :log (reverse (memory-log memory))
-                  :memory memory))))
+    (values attempt memory)))
+
+(defun finish-plan (attempt memory knowledge stop)
+  "Return the plan that ATTEMPT and MEMORY hold.  Rules that end without KEEP or CANT keep the best."
+  (%make-plan :box (attempt-box attempt) :knowledge knowledge :gamma (attempt-gamma attempt)
+              :stop stop
+              :best (and (not (and stop (eq (stop-verdict stop) :cant)))
+                         (attempt-best attempt))
+              :candidates (reverse (attempt-candidates attempt))
+              :log (reverse (memory-log memory))
+              :memory memory))
 
 (defun check-gamma (gamma)
   (let ((number (and (realp gamma) (as-double gamma))))

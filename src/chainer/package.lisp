@@ -8,7 +8,7 @@ one generic function.")
   (:export
    ;; surfaces
    #:+surfaces+ #:surface #:surface-index #:surface-name #:opposite #:surface-axis #:surface-sign
-   #:pack #:pack-mask #:pack-count #:pack-surfaces #:pack-elements #:pack-names
+   #:pack #:pack-mask #:pack-count #:pack-elements #:pack-names
    ;; predicates and working memory
    #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
    #:memory #:make-memory #:memory-client #:memory-log
@@ -16,10 +16,10 @@ one generic function.")
    ;; rules
    #:rule #:rule-name #:rule-form #:rule-index #:rule-clauses #:rule-actions #:rule-variables
    #:rule-line #:rule-file
-   #:clause #:clause-negated #:clause-predicate #:clause-terms #:clause-form #:clause-words
+   #:clause #:clause-negated #:clause-predicate #:clause-terms #:clause-form
    #:action #:action-verb #:action-form #:action-predicate #:action-terms #:action-target
    #:action-function #:action-operands
-   #:rulebase #:make-rulebase #:build-rulebase #:rulebase-rules #:rulebase-predicates
+   #:rulebase #:build-rulebase #:rulebase-rules #:rulebase-predicates
    #:find-rule #:find-predicate #:rulebase-client
    ;; actions
    #:compile-action #:define-action #:action-verbs #:parse-surfaces #:parse-sentence

@@ -1,0 +1,178 @@
+;;;; chainer.lisp -- tests of the upper level alone: rules, matching, negation, order.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defun rule-forms (text)
+  (supergrip-data:read-all (supergrip-data:string-source text)))
+
+(defparameter *inputs* '((("OPPOSED") 2) (("SMALL") 2) (("CONSTRAINED") 1) (("SLIPPERY") 0)))
+
+(defun build (text)
+  "Return the rule base of TEXT and the reports of what is wrong with it."
+  (multiple-value-bind (rulebase problems)
+      (supergrip-data:with-problems
+        (supergrip-chainer:build-rulebase (rule-forms text) *inputs*))
+    (values rulebase (mapcar #'princ-to-string problems))))
+
+(defun run-text (text facts)
+  "Run the rules of TEXT on FACTS, a list of (WORD FACE...).
+Returns what the rules said, a list of strings, and the stop."
+  (multiple-value-bind (rulebase problems) (build text)
+    (assert (null problems) () "~{~a~%~}" problems)
+    (let ((memory (supergrip-chainer:make-memory (supergrip-chainer:rulebase-predicates rulebase))))
+      (loop for (word . faces) in facts
+            do (supergrip-chainer:remember
+                memory
+                (supergrip-chainer:find-predicate rulebase (list (symbol-name word)))
+                (supergrip-chainer:pack (mapcar #'supergrip-chainer:surface-index faces))))
+      (let ((stop (supergrip-chainer:run-rules rulebase memory)))
+        (values (loop for event in (reverse (supergrip-chainer:memory-log memory))
+                      collect (event-text event rulebase))
+                stop)))))
+
+(defun event-text (event rulebase)
+  (multiple-value-bind (predicate packed) (supergrip-chainer:event-fact event rulebase)
+    (format nil "~a: ~a~{ ~a~}"
+            (supergrip-chainer:rule-name (supergrip-chainer:event-rule event rulebase))
+            (supergrip-chainer:predicate-text predicate)
+            (supergrip-chainer:pack-names packed))))
+
+(defparameter *pairs* '((opposed z2 z1) (opposed y2 y1) (opposed x2 x1)))
+
+(test surfaces-pack
+  (is (equal '("Z2" "X1" "Y1")
+             (supergrip-chainer:pack-names
+              (supergrip-chainer:pack (mapcar #'supergrip-chainer:surface-index '(z2 x1 y1))))))
+  (is (equal '("Z2" "Z1" "Y2" "Y1" "X2" "X1")
+             (supergrip-chainer:pack-names (supergrip-chainer:pack '(0 1 2 3 4 5)))))
+  (loop for (name axis sign) in '((x1 0 1) (x2 0 -1) (y1 1 1) (y2 1 -1) (z1 2 1) (z2 2 -1))
+        for face = (supergrip-chainer:surface-index name)
+        do (is (= axis (supergrip-chainer:surface-axis face)))
+           (is (= sign (supergrip-chainer:surface-sign face)))
+           (is (= axis (supergrip-chainer:surface-axis (supergrip-chainer:opposite face))))
+           (is (/= face (supergrip-chainer:opposite face)))))
+
+(test facts-are-matched-in-order-and-in-all-orders
+  (is (equal '("R: P Z2" "R: P Z1" "R: P Y2" "R: P Y1" "R: P X2" "R: P X1")
+             (run-text "(RULE R (IF (OPPOSED (s1 s2))) (THEN (REMEMBER P (s1))))" *pairs*)))
+  (is (equal '("A: T Z2 Y2 X2" "B: Q Z2 Y2" "B: Q Z2 X2" "B: Q Y2 X2")
+             (run-text "(RULE A (IF (OPPOSED (Z2 s2))) (THEN (REMEMBER T (Z2 Y2 X2))))
+                        (RULE B (IF (T (s1 s2 s3))) (THEN (REMEMBER Q (s1 s2)) (REMEMBER Q (s2 s1))))"
+                       *pairs*))
+      "unordered facts are said once")
+  (is (equal '("A: T Z2 Y2 X2" "B: FIRST Y2" "B: FIRST X2" "B: FIRST Z2")
+             (run-text "(RULE A (IF (OPPOSED (Z2 s2))) (THEN (REMEMBER T (Z2 Y2 X2))))
+                        (RULE B (IF (T (s1 s2 s3))) (THEN (REMEMBER FIRST (s2))))"
+                       *pairs*))
+      "the orders of a list of three: by the places in which they are stored"))
+
+(test all-bindings-first-then-action-by-action
+  (is (equal '("R: P Z2" "R: P Z1" "R: P Y2" "R: P Y1" "R: P X2" "R: P X1" "R: DONE")
+             (run-text "(RULE R (IF (OPPOSED (s1 s2))) (THEN (REMEMBER P (s1)) (REMEMBER DONE)))"
+                       *pairs*)))
+  (is (equal '("R: CONSTRAINED Y1" "R: CONSTRAINED Y2")
+             (run-text "(RULE R (IF (OPPOSED (s1 s2)) (NOT CONSTRAINED (s1)) (SMALL (s1 s2)))
+                              (THEN (REMEMBER CONSTRAINED (s2))))"
+                       (append *pairs* '((small y1 y2)))))
+      "what an action remembers does not change the bindings of its own rule"))
+
+(test negation-is-absence
+  (is (equal '("R: FREE Z1" "R: FREE X1")
+             (run-text "(RULE R (IF (OPPOSED (s1 s2)) (CONSTRAINED (s1)) (NOT CONSTRAINED (s2)))
+                              (THEN (REMEMBER FREE (s2))))"
+                       (append *pairs* '((constrained z2) (constrained x2) (constrained y1)
+                                         (constrained y2))))))
+  (is (equal '("A: OBJECT HAS X" "C: YES")
+             (run-text "(RULE A (IF (OBJECT HAS NO X)) (THEN (REMEMBER OBJECT HAS X)))
+                        (RULE B (IF (OBJECT HAS NO X)) (THEN (REMEMBER NEVER)))
+                        (RULE C (IF (OBJECT HAS X)) (THEN (REMEMBER YES)))
+                        (RULE D (IF (NOT OBJECT HAS X)) (THEN (REMEMBER NEVER)))"
+                       '()))
+      "rules run in order, each once"))
+
+(test negation-binds-over-the-faces
+  (is (equal '("R: FREE Z1" "R: FREE Y2" "R: FREE Y1" "R: FREE X2" "R: FREE X1")
+             (run-text "(RULE R (IF (NOT CONSTRAINED (s1))) (THEN (REMEMBER FREE (s1))))"
+                       '((constrained z2)))))
+  (is (= 12 (length (run-text "(RULE R (IF (NOT OPPOSED (s1 s2))) (THEN (REMEMBER EDGE (s1 s2))))"
+                              *pairs*)))
+      "a box has twelve edges")
+  (is (equal '("R: EDGE Z1 Y2" "R: EDGE Z1 Y1" "R: EDGE Z1 X2" "R: EDGE Z1 X1")
+             (run-text "(RULE R (IF (NOT OPPOSED (Z1 s1))) (THEN (REMEMBER EDGE (Z1 s1))))" *pairs*))
+      "a list holds distinct surfaces, constants too"))
+
+(test distinct-variables-bind-distinct-surfaces
+  (is (null (run-text "(RULE R (IF (CONSTRAINED (s1)) (CONSTRAINED (s2))) (THEN (REMEMBER TWO)))"
+                      '((constrained z2)))))
+  (is (equal '("R: TWO")
+             (run-text "(RULE R (IF (CONSTRAINED (s1)) (CONSTRAINED (s2))) (THEN (REMEMBER TWO)))"
+                       '((constrained z2) (constrained x1))))))
+
+(test cant-ends-the-run
+  (multiple-value-bind (said stop)
+      (run-text "(RULE A (IF (SLIPPERY)) (THEN (REMEMBER SEEN) (CANT GRASP IT)
+                                               (REMEMBER NEVER)))
+                 (RULE B (IF (SEEN)) (THEN (REMEMBER NEVER)))"
+                '((slippery)))
+    (is (equal '("A: SEEN") said))
+    (is (eq :cant (supergrip-chainer:stop-verdict stop)))
+    (is (equal '("GRASP" "IT") (supergrip-chainer:stop-words stop)))
+    (is (equal "A" (supergrip-chainer:rule-name (supergrip-chainer:stop-rule stop))))))
+
+(supergrip-chainer:define-action :shout (action rulebase)
+  (setf (supergrip-chainer:action-function action)
+        (lambda (memory binding)
+          (declare (ignore memory binding))
+          (supergrip-chainer:make-stop :verdict :shouted))))
+
+(test a-new-action-is-attached-from-outside
+  (is (eq :shouted (supergrip-chainer:stop-verdict
+                    (nth-value 1 (run-text "(RULE A (IF (SLIPPERY)) (THEN (SHOUT)))"
+                                           '((slippery))))))))
+
+(test wrong-rules-are-refused
+  (loop for (text report) in
+        '(("(RULE)" "RULE without a name: a rule is (RULE name (IF clause...) (THEN action...))")
+          ("(RULE A (IF (P)))" "RULE A: a rule is (RULE name (IF clause...) (THEN action...))")
+          ("(RULE A (IF) (THEN (REMEMBER P)))" "RULE A: IF has no clause")
+          ("(RULE A (IF (SLIPPERY)) (THEN))" "RULE A: THEN has no action")
+          ("(RULE A (IF SLIPPERY) (THEN (REMEMBER P)))"
+           "RULE A, clause 1: SLIPPERY is not a clause: a clause is a list")
+          ("(RULE A (IF (SMALL (s1 s2))) (THEN (REMEMBER P (s3))))"
+           "RULE A, action 1: the variable S3 stands in no clause of the antecedent")
+          ("(RULE A (IF (SMALL (s1))) (THEN (REMEMBER P)))"
+           "RULE A, clause 1: SMALL takes 2 surfaces, here it has 1")
+          ("(RULE A (IF (SMALL)) (THEN (REMEMBER P)))"
+           "RULE A, clause 1: SMALL takes 2 surfaces, here it has none")
+          ("(RULE A (IF (SMALL (s1 s1))) (THEN (REMEMBER P)))"
+           "RULE A, clause 1: the same surface twice in (S1 S1): lists of surfaces hold distinct ones")
+          ("(RULE A (IF (CONSTRAINED (Z3))) (THEN (REMEMBER P)))"
+           "RULE A, clause 1: Z3 is neither a surface (X1 to Z2) nor a variable (a name that begins with S, as S1)")
+          ("(RULE A (IF (NOT NO SLIPPERY)) (THEN (REMEMBER P)))"
+           "RULE A, clause 1: (NOT NO SLIPPERY) is negated twice")
+          ("(RULE A (IF (NOT (SMALL (s1 s2)))) (THEN (REMEMBER P)))"
+           "RULE A, clause 1: write (NOT SMALL (S1 S2)): NOT stands before the words, without a list of its own")
+          ("(RULE A (IF (SLIPPERY)) (THEN (REMEMBER NOT P)))"
+           "RULE A, action 1: a negation can't be remembered: what is not remembered is false")
+          ("(RULE A (IF (SLIPPERY)) (THEN (REMEMBER OBJECT HAS NO P)))"
+           "RULE A, action 1: a negation can't be remembered: what is not remembered is false")
+          ("(RULE A (IF (SLIPPERY)) (THEN (REMEBMER P)))"
+           "RULE A, action 1: REMEBMER is no action; actions are REMEMBER, CANT")
+          ("(RULE A (IF (SLIPPERY)) (THEN (CANT)))"
+           "RULE A, action 1: CANT is followed by words that say why")
+          ("(RULE A (IF (SLIPPERY)) (THEN (REMEMBER P)))
+            (RULE A (IF (SLIPPERY)) (THEN (REMEMBER P)))"
+           "RULE A: there is a rule of this name before it"))
+        do (let ((reports (nth-value 1 (build text))))
+             (is (= 1 (length reports)))
+             (is (search (subseq report 0 (min (length report) 80)) (or (first reports) ""))
+                 "~a~%gave ~s" text reports))))
+
+(test all-mistakes-are-reported-and-good-rules-stay
+  (multiple-value-bind (rulebase reports)
+      (build "(RULE A (IF (SMALL (s1)) (NOT)) (THEN (FROB) (REMEMBER P (s9))))
+              (RULE B (IF (SLIPPERY)) (THEN (REMEMBER P (Z1))))")
+    (is (= 4 (length reports)) "~{~a~%~}" reports)
+    (is (equal '("B") (map 'list #'supergrip-chainer:rule-name
+                           (supergrip-chainer:rulebase-rules rulebase))))))

@@ -1,0 +1,255 @@
+;;;; errors.lisp -- bad boxes and bad knowledge: refused, with everything that is wrong named.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defparameter *good-box*
+  '((:size 12 2 2) (:weight 0.2d0) (:u 0.8d0) (:v 0.2d0) (:constrained :z2 :x1)
+    (:force-needed (1 0.8d0 0.8d0 0.3d0 1 1)) (:velocity-needed (0 0.8d0 0.8d0 0 0.8d0 0.8d0))))
+
+(defun changed-box (key &rest values)
+  "Return the good box with other VALUES for KEY."
+  (substitute-if (cons key values) (lambda (clause) (eq (first clause) key)) *good-box*))
+
+(defun box-reports (form)
+  (problem-texts (lambda () (supergrip:parse-box form))))
+
+(test bad-values-in-a-box-are-refused
+  (loop for (key . values) in
+        '((:size 12 2) (:size 12 2 2 2) (:size 12 2 0) (:size 12 -2 2) (:size (12 2 2))
+          (:size 12 2 "2") (:size) (:size 12 2 wide)
+          (:weight -0.1) (:weight) (:weight 0.1 0.2) (:weight heavy)
+          (:u -0.1) (:u "0.8") (:u) (:v -1) (:v 0.2 0.2)
+          (:force-needed 1 1 1 1 1 1) (:force-needed (1 1 1 1 1)) (:force-needed (1 1 1 1 1 1 1))
+          (:force-needed (1 1 1 1 1 1.1)) (:force-needed (1 1 1 1 1 -0.1)) (:force-needed)
+          (:velocity-needed (1 1 1 1 1 x)) (:velocity-needed ()))
+        do (let ((reports (box-reports (apply #'changed-box key values))))
+             (is (= 1 (length reports)) "~s ~s: ~s" key values reports)
+             (is (search (format nil "BOX: (~a" key) (first reports)))
+             (is (search "takes" (first reports)) "the report says what is valid"))))
+
+(test other-mistakes-in-a-box-are-named
+  (loop for (form report) in
+        `((12 "BOX: 12 is not a box description: it is a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)")
+          (((size 12 2 2)) "BOX: WEIGHT is missing; it takes one number from 0, in finger forces: (WEIGHT 0.2)")
+          (,(cons '(:size 1 1 1) *good-box*) "BOX: SIZE is given twice")
+          (,(cons '(:frction 1) *good-box*) "BOX: unknown key FRCTION")
+          (,(cons '(:wieght 1) *good-box*) "BOX: unknown key WIEGHT (did you mean WEIGHT?)")
+          (,(cons :size *good-box*) "BOX: SIZE is not a part of a box description: its parts are lists as (SIZE 12 2 2)")
+          (,(changed-box :constrained :z3) "BOX: Z3 is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
+          (,(changed-box :constrained '(:z2)) "BOX: (Z2) is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
+          (,(changed-box :constrained :z2 :z2) "BOX: Z2 is constrained twice")
+          (,(remove :constrained *good-box* :key #'first) "BOX: CONSTRAINED is missing")
+          (,(cons '(:name pencil) *good-box*) "BOX: (NAME PENCIL) is not valid: NAME takes one string: (NAME \"pencil\")")
+          (((size 1 1 1) (weight 0) (u 0) (v 0) (constrained) (force-needed (0 0 0 0 0 0))
+            (velocity-needed (0 0 0 0 0 0)))
+           "BOX: the task needs nothing: FORCE-NEEDED and VELOCITY-NEEDED are all 0"))
+        do (let ((reports (box-reports form)))
+             (is (eql 0 (search report (or (first reports) ""))) "~s~%gave ~s" form reports))))
+
+(test all-mistakes-in-a-box-come-at-once
+  (is (= 4 (length (box-reports '((size 1 1) (weight -1) (u 1) (v 1) (constrained q)
+                                  (force-needed (2 2 2 2 2 2))
+                                  (velocity-needed (0 0 0 0 0 1))))))))
+
+(test good-boxes-in-all-their-forms
+  (let ((box (supergrip:parse-box *good-box*)))
+    (is (equalp '(12d0 2d0 2d0) (supergrip:box-size box)))
+    (is (equal '("Z2" "X1") (supergrip:box-constrained box)))
+    (dolist (form (list (reverse *good-box*)
+                        (list 'setq 'box (list 'quote *good-box*))
+                        (list 'quote *good-box*)
+                        '((size 12 2 2) (weight 0.2) (u 0.8) (v 0.2) (constrained x1 z2)
+                          (force-needed (1 0.8 0.8 0.3 1 1)) (velocity-needed (0 0.8 0.8 0 0.8 0.8)))))
+      (is (equalp box (supergrip:parse-box form)) "~s" form)))
+  (is (equal "a box" (supergrip:box-name (supergrip:parse-box (cons '(name "a box") *good-box*)))))
+  (is (zerop (supergrip:box-weight (supergrip:parse-box (changed-box :weight 0)))))
+  (is (zerop (supergrip:box-friction (supergrip:parse-box (changed-box :u 0)))))
+  (is (null (supergrip:box-constrained (supergrip:parse-box (changed-box :constrained))))))
+
+(test a-bad-box-leaves-the-former-one
+  (let ((supergrip::*box* nil))
+    (signals supergrip:no-box-error (supergrip:forward-chain))
+    (setf supergrip:box *good-box*)
+    (signals supergrip:box-error (setf supergrip:box '((size 1))))
+    (is (equalp '(12d0 2d0 2d0) (supergrip:box-size supergrip:box)))))
+
+;;; Knowledge
+
+(defparameter *small-gripper*
+  "(SETQ GRIPPER '(FINGER-LENGTH 3 FINGER-DIST 6 FINGER-SPREAD 2 FINGER-WIDTH 1 DIST-PINCH 12
+                   WIDTH-HAND 8 SLIPPERY-U 0.1))")
+
+(defun knowledge-reports (rules grasps)
+  "Return the reports on a rule and a grasp file that hold the texts RULES and GRASPS."
+  (flet ((forms (text file)
+           (supergrip-data:read-all (supergrip-data:string-source text :name file))))
+    (multiple-value-bind (rule-forms rule-lines) (forms rules "rules.lisp")
+      (multiple-value-bind (grasp-forms grasp-lines) (forms grasps "grasps.lisp")
+        (mapcar #'princ-to-string
+                (supergrip-data:errors-in
+                 (nth-value 1 (supergrip::build-knowledge rule-forms rule-lines "rules.lisp"
+                                                          grasp-forms grasp-lines "grasps.lisp"))))))))
+
+(defun grasp-text (&rest changes)
+  "Return the text of a grasp G, with CHANGES, a plist from key to text, NIL to leave it out."
+  (format nil "(SETQ G '(~{~a ~a~%~}))"
+          (loop for (key text) on '(:used-surfaces "(N1 N2 A2)" :conditions "(T)"
+                                    :offset "(LIST 0 0 0 0 0 0)"
+                                    :wrench "(1 (* 2 u) (* 2 u) (* 2 v) 1 1)" :twist "(1 1 1 1 1 1)"
+                                    :contacts "((N1 0 0) (N2 0 0))" :palm "A2")
+                by #'cddr
+                for new = (getf changes key text)
+                when new append (list key new))))
+
+(defun grasp-reports (&rest changes)
+  (knowledge-reports "(RULE R (IF (SLIPPERY)) (THEN (TRY G)))"
+                     (format nil "~a~%~a" *small-gripper* (apply #'grasp-text changes))))
+
+(test a-small-knowledge-base-is-good
+  (is (null (grasp-reports)))
+  (is (null (grasp-reports :contacts nil :palm nil)))
+  (is (null (grasp-reports :conditions "((DIST '(N1 N2)) < 3 AND (u > 1) OR (NOT (CONSTRAINED O1)))"
+                           :offset "(LET* ((x 1)) (COND ((> x u) (LIST 0 0 0 0 0 0))
+                                                        (T (LIST 0 0 0 0 (- x) x))))"))))
+
+(test mistakes-in-grasps-are-named
+  (loop for (key text report) in
+        '((:used-surfaces "(N1 N3)" "USED-SURFACES: (N1 N3): USED-SURFACES are some of N1 N2 O1 O2 A1 A2")
+          (:used-surfaces nil "USED-SURFACES is missing")
+          (:conditions nil "CONDITIONS is missing")
+          (:conditions "((DIST '(N1 N2)) <)" "CONDITIONS: ((DIST '(N1 N2)) <) is not a test")
+          (:conditions "((DIST '(N1 O1)) < 3)" "CONDITIONS: (DIST '(N1 O1)): DIST takes two opposite faces")
+          (:conditions "((DIST '(N1 N2)) < FINGER-LENGHT)"
+           "CONDITIONS: unknown name FINGER-LENGHT (did you mean FINGER-LENGTH?)")
+          (:conditions "((CONSTRAINED X1))" "CONDITIONS: (CONSTRAINED X1): CONSTRAINED takes one of N1 N2")
+          (:conditions "(AND)" "CONDITIONS: AND joins no tests")
+          (:offset "(LIST 0 0 0 0 0)" "OFFSET: 5 entries, six are needed")
+          (:wrench "(1 1 1 1 1)" "WRENCH: 5 entries, six are needed")
+          (:wrench "(1 1 1 1 1 (SIN u))" "WRENCH: unknown operator SIN")
+          (:wrench "(1 1 1 1 1 (SQRTT u))" "WRENCH: unknown operator SQRTT (did you mean SQRT?)")
+          (:wrench "(1 1 1 1 1 (SQRT u v))" "WRENCH: SQRT takes 1 argument, here 2: (SQRT U V)")
+          (:wrench "(1 1 1 1 1 (/ 1 0))" "WRENCH: (/ 1 0) has no value")
+          (:wrench "(1 1 1 1 1 (SQRT -1))" "WRENCH: (SQRT -1) has no value")
+          (:wrench "(1 1 1 1 1 \"x\")" "WRENCH: \"x\" is not a number, a name or an operation")
+          (:wrench "(1 1 1 1 1 (COND ((> u 1) 1)))" "WRENCH: the last clause of COND must be (T ...)")
+          (:wrench "(LET* ((a)) (LIST 1 1 1 1 1 1))" "WRENCH: (A) is not a binding")
+          (:twist "(1 1 1 1 1 -1)" "TWIST: an entry below 0")
+          (:twist "(1 1 1 1 1 1 1)" "TWIST: 7 entries, six are needed")
+          (:contacts "((N1 0 0) (O1 0 0))" "CONTACTS: a finger is on O1, which is not one of USED-SURFACES")
+          (:contacts "((N1 0))" "CONTACTS: (N1 0) is not a contact")
+          (:palm "O2" "PALM: the palm faces O2, which is not one of USED-SURFACES")
+          (:palm "(A2)" "PALM: (A2): PALM is one of N1 N2 O1 O2 A1 A2")
+          (:palm "A2 REACH 3" "unknown key REACH"))
+        do (let ((reports (grasp-reports key text)))
+             (is (search (format nil "GRASP G~:[: ~;, ~]~a" (search ": " (subseq report 0 (min 20 (length report))))
+                                 report)
+                         (or (first reports) ""))
+                 "~s~%gave ~s" report reports)
+             (is (eql 0 (search "grasps.lisp:" (first reports)))))))
+
+(test mistakes-in-the-gripper-are-named
+  (flet ((reports (gripper) (knowledge-reports "(RULE R (IF (SLIPPERY)) (THEN (CANT X)))" gripper)))
+    (is (search "there is no (SETQ GRIPPER '(...))" (first (reports ""))))
+    (is (search "GRIPPER: DIST-PINCH is 20, but fingers of two links of 3 cm that start 6 cm apart open to 12 at most"
+                (format nil "~{~a~}" (reports (replace-once *small-gripper* "DIST-PINCH 12" "DIST-PINCH 20")))))
+    (is (search "WIDTH-HAND is missing"
+                (first (reports (replace-once *small-gripper* "WIDTH-HAND 8" "")))))
+    (is (search "FINGER-DIST is 'FAR; a dimension is a number from 0"
+                (first (reports (replace-once *small-gripper* "FINGER-DIST 6" "FINGER-DIST 'FAR")))))
+    (is (search "given twice"
+                (first (reports (replace-once *small-gripper* "WIDTH-HAND 8" "WIDTH-HAND 8 WIDTH-HAND 8")))))))
+
+(test mistakes-in-tries-are-named
+  (flet ((reports (action)
+           (first (knowledge-reports (format nil "~%(RULE R (IF (SMALL (s1 s2)))~% (THEN ~a))" action)
+                                     (format nil "~a~%~a" *small-gripper* (grasp-text))))))
+    (is (equal "rules.lisp:3: RULE R, action 1: TRY names GG, which is not in the database (did you mean G?)"
+               (reports "(TRY GG)")))
+    (is (search "action 1: a suggested matching is one list of six" (reports "(TRY G (s1 s2))")))
+    (is (search "the variable S3 stands in no clause" (reports "(TRY G (s1 s2 s3 ? ? ?))")))
+    (is (search "KEEP is (KEEP BEST)" (reports "(KEEP WORST)")))))
+
+(test nothing-is-half-loaded
+  (uiop:with-temporary-file (:stream out :pathname rules :keep nil)
+    (format out "(RULE A (IF (SLIPPERY)) (THEN (CANT X)))~%(RULE B (IF (SMALL (s1))) (THEN (FROB)))")
+    :close-stream
+    (let ((before supergrip:*knowledge*))
+      (handler-case (supergrip:load-knowledge :rules rules)
+        (supergrip:knowledge-error (condition)
+          (is (= 2 (length (supergrip:input-error-problems condition))))
+          (is (search (format nil "~a:2: RULE B, clause 1:" (file-namestring rules))
+                      (princ-to-string condition)))))
+      (is (eq before supergrip:*knowledge*)))
+    (let ((knowledge (handler-bind ((supergrip:knowledge-error #'continue))
+                       (supergrip:load-knowledge :rules rules))))
+      (is (equal '("A") (mapcar #'supergrip-chainer:rule-name (supergrip:knowledge-rules knowledge)))
+          "CONTINUE leaves out what is wrong"))
+    (let ((tries 0))
+      (is (= 1 (length (supergrip:knowledge-rules
+                        (handler-bind ((supergrip:knowledge-error
+                                         (lambda (condition)
+                                           (declare (ignore condition))
+                                           (incf tries)
+                                           (with-open-file (out rules :direction :output
+                                                                      :if-exists :supersede)
+                                             (format out "(RULE A (IF (SLIPPERY)) (THEN (CANT X)))"))
+                                           (supergrip:retry))))
+                          (supergrip:load-knowledge :rules rules)))))
+          "RETRY reads the mended file")
+      (is (= 1 tries)))))
+
+(test a-file-that-is-not-there-is-named
+  (is (equal '("no-such-rules.lisp: this file can't be opened")
+             (problem-texts (lambda () (supergrip:load-knowledge :rules "/tmp/no-such-rules.lisp"))))))
+
+(test a-spoiled-file-names-line-and-column
+  (uiop:with-temporary-file (:stream out :pathname file :keep nil)
+    (format out "(SETQ GRIPPER '(FINGER-LENGTH 3)))~%")
+    :close-stream
+    (is (equal (list (format nil "~a:1:34: a closing parenthesis too many" (file-namestring file)))
+               (problem-texts (lambda () (supergrip:load-knowledge :grasps file)))))))
+
+(test arithmetic-in-a-form-rejects-the-candidate
+  (flet ((failure (&rest changes)
+           (let* ((text (format nil "~a~%~a" *small-gripper* (apply #'grasp-text changes)))
+                  (knowledge (supergrip::build-knowledge
+                              '() nil nil
+                              (supergrip-data:read-all (supergrip-data:string-source text)) nil nil))
+                  (plan (supergrip:try-grasp "G" '((size 4 4 4) (weight 0.1d0) (u 0) (v 0.2d0)
+                                                   (constrained) (force-needed (1 1 1 1 1 1))
+                                                   (velocity-needed (1 1 1 1 1 1)))
+                                             :knowledge knowledge))
+                  (candidate (first (supergrip:plan-candidates plan))))
+             (multiple-value-list (supergrip:candidate-failure candidate plan)))))
+    (is (equal '(:conditions "(U > 1): 0 is not > 1") (failure :conditions "(u > 1)")))
+    (is (equal '(:conditions "a form of CONDITIONS has no value") (failure :conditions "((/ 1 u) > 1)")))
+    (is (equal '(:offset "the fingers can't reach: a root or a quotient of OFFSET has no value")
+               (failure :offset "(LIST 0 0 0 0 0 (SQRT (- u 1)))")))
+    (is (equal '(:offset "OFFSET's entries for two opposite faces are not opposite numbers")
+               (failure :offset "(LIST 0 0 0 0 1 1)")))
+    (is (equal '(:fingers "a finger would stand outside the edges of its face")
+               (failure :contacts "((N1 3 0) (N2 0 0))")))
+    (is (equal '(:open "not closed: the contacts exert nothing along O") (failure)))
+    (is (equal '(:open "a form of WRENCH has no value") (failure :wrench "(1 1 1 1 1 (EXPT u -1))")))
+    (is (equal '(:lifting "it can't hold the weight: the load along Z is 0.1, the grasp bears 0.01")
+               (failure :wrench "(0.01 0.01 0.01 0.01 0.01 0.01)")))))
+
+(test every-exported-name-is-defined-and-documented
+  (dolist (package '(:supergrip :supergrip-chainer :supergrip-data))
+    (do-external-symbols (symbol package)
+      (is (or (documentation symbol 'function) (documentation symbol 'variable)
+              (documentation symbol 'type)
+              (documentation symbol 'structure)
+              (accessor-of-documented-structure-p symbol)
+              (member symbol '(supergrip:box)))
+          "~a" symbol))))
+
+(defun accessor-of-documented-structure-p (symbol)
+  "True if SYMBOL is an accessor or the constructor of a structure that has a docstring."
+  (and (fboundp symbol)
+       (let ((name (symbol-name symbol)))
+         (loop for structure being the symbols of (symbol-package symbol)
+                 thereis (and (documentation structure 'structure)
+                              (or (eql 0 (search (format nil "~a-" structure) name))
+                                  (equal name (format nil "MAKE-~a" structure))))))))

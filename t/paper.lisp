@@ -1,0 +1,130 @@
+;;;; paper.lisp -- what the paper prints: its session, its rules, its grasp and its box.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defun project-file (name)
+  (asdf:system-relative-pathname "supergrip" name))
+
+(defun file-text (name)
+  (uiop:read-file-string (project-file name)))
+
+(defun replace-once (text from to)
+  "Return TEXT with the one occurrence of FROM replaced."
+  (let ((place (search from text)))
+    (assert (and place (not (search from text :start2 (1+ place)))) ()
+            "~s must stand once in the paper's text" from)
+    (concatenate 'string (subseq text 0 place) to (subseq text (+ place (length from))))))
+
+(defun part-between (text start end)
+  "Return the part of TEXT from START up to END."
+  (let ((from (search start text)))
+    (subseq text from (search end text :start2 from))))
+
+(defun paper-form (start end &optional repairs)
+  "Return the form of the paper's text that begins with START, END coming after it; REPAIRS are
+pairs of what the scan has and what is read."
+  (let ((text (part-between (file-text "t/paper-listings.txt") start end)))
+    (loop for (from to) in repairs
+          do (setf text (replace-once text from to)))
+    (first (supergrip-data:read-all (supergrip-data:string-source text)))))
+
+(defun same-form-p (a b)
+  (equal (supergrip-data:form-text a) (supergrip-data:form-text b)))
+
+(defun shipped-form (file kind name)
+  (find-if (lambda (form) (and (supergrip-data:name= (first form) kind)
+                               (supergrip-data:name= (second form) name)))
+           (supergrip-data:read-all
+            (supergrip-data:string-source (file-text file)))))
+
+(test the-four-printed-rules-ship-as-printed
+  ;; Section Implementation, High-Level Rules: no repair is needed.
+  (loop for (name end) in '(("GRIP1" "(RULE SURFACES1") ("SURFACES1" "(RULE GRIP6")
+                            ("GRIP6" "(RULE GRIP8") ("GRIP8" "(SETQ PINCH"))
+        for printed = (paper-form (format nil "(RULE ~a" name) end)
+        do (is (same-form-p printed (shipped-form "rules.lisp" "RULE" name)) name)))
+
+(defparameter *grasp-repairs*
+  '(;; The scan reads a product as a sum; O as D; and its parentheses and dots are damaged.
+    ("(+ 2 u)
+  (+ 2 u)" "(* 2 u)
+  (* 2 u)")
+    ("(+ 2 v)" "(* 2 v)")
+    ("(+ u (DIST '(N1 N2)))
+  (+ u (DIST '(N1 N2))))" "(* u (DIST '(N1 N2)))
+  (* u (DIST '(N1 N2))))")
+    ("(DIST '(D1 D2))" "(DIST '(O1 O2))")
+    ("(CONSTRAINED D1)" "(CONSTRAINED O1)")
+    ("(CONSTRAINED D2)" "(CONSTRAINED O2)")
+    ("(/ (- DIST '(N1 N2)) FINGER-DIST) 2)" "(/ (- (DIST '(N1 N2)) FINGER-DIST) 2))")
+    ("'(0 0 0 0 .(- offset) ,offset)" "(LIST 0 0 0 0 (- offset) offset)")
+    ;; The listing becomes a property list.
+    ("(CONDITIONS ((DIST" "CONDITIONS (((DIST")
+    ("(CONSTRAINED O2))))))" "(CONSTRAINED O2))))")
+    ("(OFFSET (LET*" "OFFSET (LET*")
+    ("offset)))
+
+(WRENCH (1" "offset))
+
+WRENCH (1")
+    ("(DIST '(N1 N2))))
+
+(TWIST (0.8 0.5 1 0.2 1 1)))" "(DIST '(N1 N2))))
+
+TWIST (0.8 0.5 1 0.2 1 1)))"))
+  "What the scan of PINCH-2-PARALLEL has, and how it is read.")
+
+(test the-printed-grasp-ships-as-repaired
+  (let* ((shipped (second (third (shipped-form "grasps.lisp" "SETQ" "PINCH-2-PARALLEL"))))
+         (printed (second (third (paper-form "(SETQ PINCH-2-PARALLEL" "(SETQ BOX" *grasp-repairs*)))))
+    (is (= 10 (length printed)))
+    (is (same-form-p printed (subseq shipped 0 10)))
+    (is (equal '("CONTACTS" "PALM") (mapcar #'symbol-name (list (nth 10 shipped) (nth 12 shipped))))
+        "only CONTACTS and PALM are added")
+    (is (null (nthcdr 14 shipped)))))
+
+(defparameter *box-repairs*
+  '(("(WEIGHT 0 2)" "(WEIGHT 0.2)") ("(u 0 8)" "(u 0.8)") ("(v 0 2)" "(v 0.2)"))
+  "What the scan of the box has, and how it is read.")
+
+(defun paper-box ()
+  (paper-form "(SETQ BOX" "§" *box-repairs*))
+
+(defun transcript (plan)
+  (with-output-to-string (out) (supergrip:write-transcript plan out)))
+
+(defparameter *session-repairs*
+  '(("OBJECT HAS ADJACENT SURFACES))" "OBJECT HAS ADJACENT SURFACES)")
+    ("OBJECT HAS FREE CORNERS))" "OBJECT HAS FREE CORNERS)"))
+  "What the scan of the session has, and how it is read.")
+
+(test the-printed-session-comes-out
+  (let ((printed (part-between (file-text "t/paper-listings.txt") "(RULE SURFACES1 SAYS PAR" "§ end")))
+    (loop for (from to) in *session-repairs*
+          do (setf printed (replace-once printed from to)))
+    (is (equal printed (transcript (supergrip::plan (paper-box)))))
+    (is (equal printed (file-text "t/pencil-session.txt")))))
+
+(test the-printed-listing-is-a-valid-grasp-as-it-stands
+  ;; Without CONTACTS and PALM, which are ours, the fingers stand in the middle of the faces.
+  (let* ((gripper (shipped-form "grasps.lisp" "SETQ" "GRIPPER"))
+         (printed (paper-form "(SETQ PINCH-2-PARALLEL" "(SETQ BOX" *grasp-repairs*))
+         (graspbase (multiple-value-bind (value problems)
+                        (supergrip-data:with-problems
+                          (supergrip::build-graspbase (list gripper printed)))
+                      (is (null problems))
+                      value))
+         (grasp (first (supergrip::graspbase-grasps graspbase))))
+    (is (equal '(0 1) (mapcar #'first (supergrip::grasp-contacts grasp))))
+    (is (= 5 (supergrip::grasp-palm grasp)))))
+
+(test the-unprinted-candidates-of-the-session
+  ;; RECONSTRUCTION, section 2: what the paper does not print must not be possible, or not tried.
+  (flet ((possible (grasp)
+           (supergrip:possible-grasps (supergrip:try-grasp grasp (paper-box)))))
+    (is (null (possible "PINCH-3-CORNER")) "open at u = 0.8")
+    (is (equal '(0.325 0.258)
+               (mapcar (lambda (entry) (/ (round (second entry) 0.001d0) 1000.0))
+                       (possible "PINCH-2-PARALLEL")))
+        "possible, so the rule that tries it must not fire")))

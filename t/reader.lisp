@@ -1,0 +1,132 @@
+;;;; reader.lisp -- tests of the data reader.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defun read-text (text)
+  "Return the forms of TEXT, names as strings."
+  (labels ((plain (form)
+             (cond ((null form) nil)
+                   ((symbolp form) (symbol-name form))
+                   ((consp form) (mapcar #'plain form))
+                   (t form))))
+    (plain (supergrip-data:read-all (supergrip-data:string-source text)))))
+
+(defun read-failure (text)
+  "Return the report of the syntax error in TEXT, or NIL."
+  (first (problem-texts (lambda () (read-text text)))))
+
+(test reader-reads-what-data-files-hold
+  (loop for (text . forms) in
+        '(("" . ())
+          ("; only a comment" . ())
+          ("(a B c1-d ?)" ("A" "B" "C1-D" "?"))
+          ("'(N1 N2)" ("QUOTE" ("N1" "N2")))
+          ("()" ())
+          ("(a(b)\"x y\"'c)" ("A" ("B") "x y" ("QUOTE" "C")))
+          ("\"a\\\"b\\\\\"" "a\"b\\")
+          ("(a ; comment )
+             b)" ("A" "B"))
+          ("1 -2 +3 1/2 -4/8" 1 -2 3 1/2 -1/2)
+          ("0.5 .5 -1.25 12. 1e3 1E-3 2d0 1.5e+2" 0.5d0 0.5d0 -1.25d0 12d0 1d3 1d-3 2d0 150d0)
+          ("(- a) (+) (1)" ("-" "A") ("+") (1))
+          ("-0.0 0e999" 0d0 0d0))
+        do (is (equalp forms (read-text text)) "~s gave ~s" text (read-text text))))
+
+(test reader-rounds-as-lisp-does
+  ;; The oracle is the standard reader.
+  (loop for text in '("0.1" "0.2" "1.7375" "123456789.123456789" "1e22" "1e23" "9007199254740993"
+                      "1.7976931348623157e299" "2.2250738585072014e-299" "3.14159265358979323846264338"
+                      "0.30000000000000004" "5e-300" "123e-20" "9007199254740993.0")
+        do (is (eql (let ((*read-default-float-format* 'double-float)) (read-from-string text))
+                    (first (read-text text)))
+               text)))
+
+(test reader-refuses-everything-else
+  (loop for (text report) in
+        '(("(a" "1:1: this parenthesis is never closed")
+          ("(a
+  (b c)" "1:1: this parenthesis is never closed")
+          (")" "1:1: a closing parenthesis too many")
+          ("(a) )" "1:5: a closing parenthesis too many")
+          ("\"abc" "1:1: this string is never closed")
+          ("\"a\\nb\"" "1:4: in a string, \\ stands only before \\ or \"")
+          ("#.(quit)" "1:1: # can't stand in a name or a number")
+          ("(a #(1))" "1:4: # can't stand in a name or a number")
+          ("`(a ,b)" "1:1: ` can't stand in a name or a number")
+          ("a|b|" "1:2: | can't stand in a name or a number")
+          ("cl:car" "1:3: : can't stand in a name or a number")
+          ("(a . b)" "1:4: dotted pairs are not read")
+          ("12x" "1:1: 12x is not a number; 12, -0.5, 1e-3 and 1/2 are")
+          ("1.2.3" "1:1: 1.2.3 is not a number; 12, -0.5, 1e-3 and 1/2 are")
+          ("1/0" "1:1: 1/0 divides by zero")
+          ("1e999" "1:1: 1e999 is out of range: numbers lie between 1e-300 and 1e300, or are 0")
+          ("1e-999" "1:1: 1e-999 is out of range: numbers lie between 1e-300 and 1e300, or are 0")
+          ("1e99999999999" "1:1: 1e99999999999 is out of range: numbers lie between 1e-300 and 1e300, or are 0")
+          ("'" "1:2: the file ends inside a form that begins in line 1"))
+        do (is (equal report (read-failure text)) "~s: ~s" text (read-failure text))))
+
+(test reader-keeps-its-limits
+  (flet ((repeat (count text)
+           (with-output-to-string (out)
+             (loop repeat count do (write-string text out)))))
+    (is (search "never closed" (read-failure (repeat 32 "("))) "not too deep")
+    (is (search "nest deeper than 32" (read-failure (repeat 33 "("))))
+    (is (search "nest deeper than 32" (read-failure (repeat 100000 "("))))
+    (is (search "nest deeper than 32" (read-failure (repeat 100000 "'"))))
+    (is (search "a number of 41 characters" (read-failure (repeat 41 "1"))))
+    (is (search "a name of 65 characters" (read-failure (repeat 65 "a"))))
+    (is (search "longer than 65536 characters"
+                (read-failure (format nil "(~a)" (repeat 40000 "a ")))))
+    (is (search "longer than 65536 characters"
+                (read-failure (format nil "\"~a\"" (repeat 70000 "a")))))
+    (is (= 40000 (length (read-text (repeat 40000 "a "))))
+        "the limit is on a form, not on the file")))
+
+(test reader-interns-nothing
+  (let ((name "a-name-that-no-program-uses"))
+    (read-text (format nil "(~a ~a)" name name))
+    (is (null (find-symbol (string-upcase name) :keyword)))
+    (is (null (find-symbol (string-upcase name) :supergrip-data)))))
+
+(test reader-knows-the-line-of-every-list
+  (multiple-value-bind (forms lines)
+      (supergrip-data:read-all
+       (supergrip-data:string-source (format nil "(a~%  (b)~%~%(c))~%; x~%(d)")))
+    (is (equal '(1 6) (mapcar (lambda (form) (gethash form lines)) forms)))
+    (is (equal '(2 4) (mapcar (lambda (form) (gethash form lines)) (rest (first forms)))))))
+
+(test reader-reads-a-stream-in-pieces
+  (let ((text (format nil "~{(~a \"string ~:*~a\" 0.5)~%~}" (loop for i below 2000 collect i))))
+    (with-input-from-string (in text)
+      (let ((forms (supergrip-data:read-all (supergrip-data:stream-source in))))
+        (is (= 2000 (length forms)))
+        (is (equal '(1999 "string 1999" 0.5d0) (first (last forms))))))))
+
+(test forms-of-the-repl-become-data
+  (is (equalp '(:size 12 0.2d0 1/2)
+              (supergrip-data:canonical '(size 12 0.2 1/2))))
+  (is (eql 0.1d0 (supergrip-data:as-double 0.1)))
+  (is (eql 0.8d0 (supergrip-data:as-double 0.8f0)))
+  (is (eql 1d10 (supergrip-data:as-double 1e10)))
+  (is (eql 0d0 (supergrip-data:as-double -0.0)))
+  (is (null (supergrip-data:as-double (expt 10 400))))
+  (is (null (supergrip-data:as-double sb-ext:double-float-positive-infinity)))
+  (let ((circular (list 1 2)))
+    (setf (cddr circular) circular)
+    (signals supergrip-data:syntax-error (supergrip-data:canonical circular)))
+  (signals supergrip-data:syntax-error (supergrip-data:canonical '(a . b)))
+  (signals supergrip-data:syntax-error (supergrip-data:canonical '(#\a)))
+  (signals supergrip-data:syntax-error (supergrip-data:canonical (list 1e30 #c(1 2)))))
+
+(test forms-print-as-they-were-written
+  (is (equal "((DIST '(N1 N2)) < 0.5 () \"x\")"
+             (supergrip-data:form-text
+              (supergrip-data:canonical '((dist '(n1 n2)) < 0.5 () "x"))))))
+
+(test suggestions-are-close
+  (is (equal " (did you mean PARALLEL?)"
+             (supergrip-data:suggestion "PARALEL" '("OPPOSED" "PARALLEL"))))
+  (is (equal " (did you mean OPPOSED?)"
+             (supergrip-data:suggestion "OPPSOED" '("OPPOSED" "PARALLEL"))))
+  (is (equal "" (supergrip-data:suggestion "XYZZY" '("OPPOSED" "PARALLEL")))))

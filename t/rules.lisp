@@ -1,0 +1,131 @@
+;;;; rules.lisp -- each of the fifteen rules alone, and each of the seven grasps at its best.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defparameter *rule-cases*
+  '(("GRIP1" ((small (y2 y1)) (constrained (y1)))
+     :cant "GRASP TOO SMALL TO PICK UP")
+    ("GRIP2" ((slippery))
+     :cant "GRASP TOO SLIPPERY TO PICK UP")
+    ("GRIP3" ((opposed (z2 z1)) (opposed (y2 y1)) (constrained (z2)) (constrained (z1))
+              (constrained (y2)) (constrained (y1)))
+     :cant "GRASP TOO CONSTRAINED TO PICK UP")
+    ("SURFACES1" ((opposed (y2 y1)))
+     "PARALLEL Y2 Y1" "OBJECT HAS PARALLEL SURFACES")
+    ;; Only what blocks all other pairs of faces keeps ADJACENT to one.
+    ("SURFACES2" ((constrained (z2)) (constrained (y1)) (constrained (x2)) (constrained (x1)))
+     "ADJACENT Z1 Y2" "OBJECT HAS ADJACENT SURFACES")
+    ("SURFACES3" ((adjacent (z1 y2)) (adjacent (z1 x2)) (adjacent (y2 x2)))
+     "CORNER Z1 Y2 X2" "OBJECT HAS FREE CORNERS")
+    ("SURFACES4" ((parallel (y2 y1)) (large (y2 y1)))
+     "WIDE Y2 Y1")
+    ("GRIP4" ((corner (z1 y2 x2)))
+     "tries PINCH-3-CORNER")
+    ("GRIP5" ((object has free corners))
+     "tries PINCH-2-ADJACENT" "tries PINCH-3-ADJACENT" :keep)
+    ("GRIP6" ()
+     "tries PINCH-2-ADJACENT" "tries PINCH-3-ADJACENT" :keep)
+    ("GRIP7" ((parallel (y2 y1)) (narrow (x2 x1)) (opposed (z2 z1)))
+     "tries PINCH-2-PARALLEL")
+    ("GRIP8" ((parallel (y2 y1)) (corner (z1 y2 x2)))
+     "tries PINCH-3-U-SHAPE" "tries PINCH-3-C-SHAPE")
+    ("GRIP9" ((parallel (y2 y1)))
+     "tries PINCH-3-PARALLEL")
+    ("GRIP10" ((wide (y2 y1)) (corner (y2 z1 x2)))
+     "tries PINCH-3-CORNER")
+    ("GRIP11" ((object has parallel surfaces))
+     :keep))
+  "A rule, the facts that it needs, and what it then does.")
+
+(defparameter *rule-box*
+  '((size 4 4 4) (weight 0.2d0) (u 0.8d0) (v 0.2d0) (constrained)
+    (force-needed (1 1 1 1 1 1)) (velocity-needed (1 1 1 1 1 1))))
+
+(defun fact-words (fact)
+  (mapcar #'symbol-name (remove-if #'consp fact)))
+
+(defun put-fact (fact rulebase memory)
+  "Put FACT into MEMORY, unless no rule of RULEBASE speaks of it."
+  (let ((predicate (supergrip-chainer:find-predicate rulebase (fact-words fact)))
+        (faces (find-if #'consp fact)))
+    (when predicate
+      (supergrip-chainer:remember
+       memory predicate
+       (supergrip-chainer:pack (mapcar #'supergrip-chainer:surface-index faces))))))
+
+(defun fire-alone (name facts)
+  "Run the shipped rule NAME alone on FACTS.  Returns what it did, a list as in *RULE-CASES*."
+  (let* ((knowledge supergrip:*knowledge*)
+         (graspbase (supergrip::knowledge-graspbase knowledge))
+         (rulebase (supergrip-data:with-problems
+                     (supergrip-chainer:build-rulebase
+                      (list (shipped-form "rules.lisp" "RULE" name))
+                      supergrip::+inputs+ :client graspbase)))
+         (memory (supergrip-chainer:make-memory
+                  (supergrip-chainer:rulebase-predicates rulebase)
+                  (supergrip::make-attempt (supergrip:parse-box *rule-box*) graspbase 0.5d0))))
+    (dolist (fact facts)
+      (put-fact fact rulebase memory))
+    (let ((stop (supergrip-chainer:run-rules rulebase memory)))
+      (append (remove-duplicates
+               (loop for event in (reverse (supergrip-chainer:memory-log memory))
+                     collect (if (supergrip::candidate-p event)
+                                 (format nil "tries ~a" (supergrip:candidate-grasp event))
+                                 (subseq (event-text event rulebase) (+ 2 (length name)))))
+               :test #'equal :from-end t)
+              (and stop (list (supergrip-chainer:stop-verdict stop)))
+              (and stop (eq :cant (supergrip-chainer:stop-verdict stop))
+                   (list (format nil "~{~a~^ ~}" (supergrip-chainer:stop-words stop))))))))
+
+(test every-rule-fires-alone-on-what-it-needs
+  (is (equal (mapcar #'supergrip-chainer:rule-name
+                     (supergrip:knowledge-rules supergrip:*knowledge*))
+             (mapcar #'first *rule-cases*))
+      "all rules, in the order of the file")
+  (loop for (name facts . done) in *rule-cases*
+        do (is (equal done (mapcar #'string-left-space (fire-alone name facts)))
+               "~a did ~s" name (fire-alone name facts))))
+
+(defun string-left-space (object)
+  (if (stringp object) (string-left-trim " " object) object))
+
+(test no-rule-fires-on-less
+  (loop for (name facts) in *rule-cases*
+        unless (member name '("SURFACES2" "GRIP6") :test #'string=) ; what they need is absence
+          do (loop for fact in facts
+                   do (is (null (fire-alone name (remove fact facts)))
+                          "~a fires without ~a" name fact))))
+
+(test a-negated-clause-is-blocked-by-its-fact
+  (loop for (name fact) in '(("SURFACES1" (constrained (y1)))
+                             ("SURFACES2" (constrained (z1)))
+                             ("GRIP4" (object has parallel surfaces))
+                             ("GRIP5" (object has parallel surfaces))
+                             ("GRIP6" (object has parallel surfaces))
+                             ("GRIP6" (object has free corners))
+                             ("GRIP7" (small (x2 x1)))
+                             ("GRIP7" (small (z2 z1)))
+                             ("GRIP9" (wide (y2 y1))))
+        do (is (null (fire-alone name (cons fact (second (assoc name *rule-cases*
+                                                               :test #'string=)))))
+               "~a in spite of ~a" name fact)))
+
+(defparameter *best-cases*
+  '(("PINCH-2-PARALLEL" (1.2d0 1.2d0 1.2d0) 0.6d0 (z2) (1 1 1 0 0 0) (1 1 1 0 0 0))
+    ("PINCH-3-PARALLEL" (12 2 2) 0.8d0 (z2 x1) (1 0.8d0 0.8d0 0.3d0 1 1)
+     (0 0.8d0 0.8d0 0 0.8d0 0.8d0))
+    ("PINCH-3-U-SHAPE" (6 4 3) 0.5d0 (z2) (0 1 0 0 0 0) (0 0 0 0 0 0))
+    ("PINCH-3-C-SHAPE" (8 12 10) 0.95d0 (z1) (0 1 0 0 0 0) (0 0 0 0 0 0))
+    ("PINCH-2-ADJACENT" (11 5 12) 1.2d0 (x2 y2 z1) (0 0 0 0 0 0) (0 1 0 0 0 0))
+    ("PINCH-3-ADJACENT" (8 2 9) 1.2d0 (x1 y2 z2) (0 0 0 0 0 0) (0 0 0 1 0 0))
+    ("PINCH-3-CORNER" (4 4 4) 0.95d0 (z2 y2 x2) (1 1 1 0.5d0 0.5d0 0.5d0) (0 0 0 0 0 0)))
+  "A grasp, and the size, friction, constraints and task of a box on which it is the best.")
+
+(test every-grasp-is-best-on-some-box
+  (loop for (grasp size u constrained force velocity) in *best-cases*
+        do (let ((plan (supergrip::plan `((size ,@size) (weight 0.05d0) (u ,u) (v 0.2d0)
+                                          (constrained ,@constrained) (force-needed ,force)
+                                          (velocity-needed ,velocity)))))
+             (is (equal grasp (supergrip:plan-grasp plan)) "~a: ~a~%~s" grasp plan
+                 (supergrip:possible-grasps plan)))))
