@@ -4,20 +4,16 @@
 
 (defun figure (number)
   "Return NUMBER for a report: four significant digits at most."
-  (if (or (zerop number) (<= 1d-3 (abs number) 1d6))
+  (if (or (< (abs number) 1d-9) (<= 1d-3 (abs number) 1d6))
       (let* ((digits (max 0 (- 3 (floor (log (max (abs number) 1d-3) 10)))))
              (text (format nil "~,vf" digits number)))
         (string-right-trim "." (string-right-trim "0" text)))
       (format nil "~,3e" number)))
 
-(defun failing-test (node registers)
-  "Return the comparison or other leaf of the test NODE that makes it false, given REGISTERS."
-  (ecase (node-op node)
-    (:and (destructuring-bind (a b) (node-args node)
-            (if (test-holds-p a registers) (failing-test b registers) (failing-test a registers))))
-    ((:or :not :blocked :false :true :< :<= :> :>= :=) node)))
+;;; Conditions
 
 (defun test-holds-p (node registers)
+  "True if the test NODE holds; its comparisons must have been run on REGISTERS."
   (ecase (node-op node)
     (:true t)
     (:false nil)
@@ -29,27 +25,72 @@
      (destructuring-bind (a b) (node-registers node)
        (funcall (comparison-function (node-op node)) (aref registers a) (aref registers b))))))
 
-(defun describe-test (node registers)
+(defun failing-test (node registers)
+  "Return the first part of the test NODE, joined by AND, that is false."
+  (if (eq (node-op node) :and)
+      (failing-test (find-if-not (lambda (test) (test-holds-p test registers)) (node-args node))
+                    registers)
+      node))
+
+(defun face-of (slot matching)
+  (surface-name (svref (matching-faces matching) slot)))
+
+(defun operand-forms (form)
+  "Return the forms of the two operands of the comparison FORM, infix or prefix."
+  (if (comparison-p (first form)) (rest form) (list (first form) (third form))))
+
+(defun describe-operand (form matching)
+  "Return FORM, an operand of a comparison, in words."
+  (cond ((and (part-named-p form "DIST") (quoted-slots (second form)))
+         (format nil "the distance of ~{~a and ~a~}"
+                 (loop for slot in (quoted-slots (second form)) collect (face-of slot matching))))
+        ((or (name= form "U") (name= form "V")) (string-downcase form))
+        (t (form-text form))))
+
+(defun describe-comparison (node registers matching)
+  (destructuring-bind (a b) (operand-forms (node-form node))
+    (destructuring-bind (x y) (mapcar (lambda (register) (aref registers register))
+                                      (node-registers node))
+      (format nil "~a is ~a, must be ~a ~a~@[ (~a)~]" (describe-operand a matching) (figure x)
+              (symbol-name (node-op node)) (figure y) (and (namep b) b)))))
+
+(defun describe-negation (node matching)
+  "Return the negation NODE, which is false, in words."
+  (let* ((test (first (node-args node)))
+         (blocked (if (eq (node-op test) :and) (node-args test) (list test))))
+    (if (every (lambda (part) (eq (node-op part) :blocked)) blocked)
+        (format nil "~{~a~^ and ~} ~[~;is~:;are both~] constrained"
+                (loop for part in blocked collect (face-of (first (node-args part)) matching))
+                (length blocked))
+        (format nil "~a does not hold" (form-text (node-form node))))))
+
+(defun describe-test (node registers matching)
   "Return NODE, a test that is false, in words with its figures."
   (case (node-op node)
-    ((:< :<= :> :>= :=)
-     (destructuring-bind (a b) (node-registers node)
-       (format nil "~a: ~a is not ~a ~a" (form-text (node-form node))
-               (figure (aref registers a)) (symbol-name (node-op node))
-               (figure (aref registers b)))))
+    ((:< :<= :> :>= :=) (describe-comparison node registers matching))
     (:or (format nil "~{~a, and ~a~}" (loop for part in (node-args node)
-                                            collect (describe-test part registers))))
-    (:and (describe-test (failing-test node registers) registers))
+                                            collect (describe-test part registers matching))))
+    (:and (describe-test (failing-test node registers) registers matching))
+    (:not (describe-negation node matching))
+    (:blocked (format nil "~a is not constrained" (face-of (first (node-args node)) matching)))
     (t (format nil "~a does not hold" (form-text (node-form node))))))
 
-(defun describe-condition-failure (candidate attempt)
+(defun failing-condition (candidate attempt)
+  "Return the part of the conditions of CANDIDATE that fails, or NIL if a form has no value."
   (let ((grasp (%candidate-grasp candidate))
         (registers (attempt-registers attempt)))
     (handler-case
-        (progn
-          (funcall (grasp-conditions grasp) registers)
-          (describe-test (failing-test (grasp-conditions-node grasp) registers) registers))
-      (arithmetic-error () "a form of CONDITIONS has no value"))))
+        (progn (funcall (grasp-conditions grasp) registers)
+               (failing-test (grasp-conditions-node grasp) registers))
+      (arithmetic-error () nil))))
+
+(defun describe-condition-failure (candidate attempt)
+  (let ((node (failing-condition candidate attempt)))
+    (if node
+        (describe-test node (attempt-registers attempt) (%candidate-matching candidate))
+        "a form of CONDITIONS has no value")))
+
+;;; The other steps
 
 (defun describe-offset-failure (candidate attempt)
   (handler-case
@@ -57,20 +98,55 @@
              "OFFSET's entries for two opposite faces are not opposite numbers")
     (arithmetic-error () "the fingers can't reach: a root or a quotient of OFFSET has no value")))
 
-(defun describe-open (candidate attempt)
+(defun program-value-p (program registers)
+  "True if PROGRAM has a value on REGISTERS."
+  (handler-case (progn (run-program program registers) t)
+    (arithmetic-error () nil)))
+
+(defun closed-at-p (grasp registers u)
+  "True if GRASP is closed at friction U, the rest as in REGISTERS."
+  (setf (aref registers +u+) u)
   (handler-case
-      (let* ((registers (attempt-registers attempt))
-             (results (run-program (grasp-wrench (%candidate-grasp candidate)) registers))
-             (place (position-if (lambda (register) (<= (aref registers register) 0d0)) results)))
-        (if place
-            (format nil "not closed: the contacts exert nothing ~a"
-                    (aref #("along N" "along O" "along A" "about N" "about O" "about A") place))
-            "a form of TWIST has no value or one below 0"))
-    (arithmetic-error () "a form of WRENCH has no value")))
+      (loop for register in (run-program (grasp-wrench grasp) registers)
+            always (> (aref registers register) 0d0))
+    (arithmetic-error () nil)))
+
+(defun closing-friction (grasp registers)
+  "Return the least friction above that in REGISTERS that closes GRASP, or NIL."
+  (let ((low (aref registers +u+))
+        (high (max 1d0 (* 2 (aref registers +u+)))))
+    (loop until (or (closed-at-p grasp registers high) (> high 100d0))
+          do (setf high (* 2 high)))
+    (when (closed-at-p grasp registers high)
+      (loop repeat 40
+            do (let ((middle (/ (+ low high) 2)))
+                 (if (closed-at-p grasp registers middle)
+                     (setf high middle)
+                     (setf low middle))))
+      high)))
+
+(defun describe-open (candidate attempt)
+  (let* ((grasp (%candidate-grasp candidate))
+         (registers (copy-seq (attempt-registers attempt)))
+         (u (aref registers +u+)))
+    (cond ((not (program-value-p (grasp-wrench grasp) registers)) "a form of WRENCH has no value")
+          ((closed-at-p grasp registers u) "a form of TWIST, or the index, has no value in range")
+          ((closing-friction grasp (copy-seq (attempt-registers attempt)))
+           (format nil "open: the contacts don't close on this shape; needs u > ~a, has ~a"
+                   (figure (closing-friction grasp (copy-seq (attempt-registers attempt))))
+                   (figure u)))
+          (t "open: the contacts don't close on this shape with any friction"))))
+
+(defun worst-load (attempt)
+  "Return the axis on which the load exceeds what the grasp bears by most, and the ratio."
+  (let ((worst nil) (most 0))
+    (dotimes (axis 6 (values worst most))
+      (let ((ratio (/ (aref (attempt-load attempt) axis) (aref (attempt-wrench attempt) axis))))
+        (when (> ratio most)
+          (setf worst axis most ratio))))))
 
 (defun describe-lifting-failure (attempt)
-  (let ((axis (position-if #'identity (map 'list #'> (attempt-load attempt)
-                                           (attempt-wrench attempt)))))
+  (let ((axis (worst-load attempt)))
     (format nil "it can't hold the weight: the load ~a is ~a, the grasp bears ~a" (axis-name axis)
             (figure (aref (attempt-load attempt) axis))
             (figure (aref (attempt-wrench attempt) axis)))))
@@ -89,27 +165,53 @@ with the figures.  NIL if it is possible."
                   (:open (describe-open candidate attempt))
                   (:lifting (describe-lifting-failure attempt))))))))
 
+;;; The nearest miss
+
 (defparameter +steps+ '(:conditions :offset :fingers :open :lifting :possible)
   "The steps of TRY, in order.")
 
+(defun shortfall (candidate plan)
+  "Return by how much CANDIDATE of PLAN missed the step that it failed: 0 to 1, relative; 1 where
+that can't be said."
+  (let ((attempt (replay candidate plan)))
+    (case (candidate-outcome candidate)
+      (:conditions
+       (let ((node (failing-condition candidate attempt)))
+         (if (and node (node-registers node))
+             (destructuring-bind (a b) (mapcar (lambda (register)
+                                                 (abs (aref (attempt-registers attempt) register)))
+                                               (node-registers node))
+               (if (= a b) 0 (/ (abs (- a b)) (max a b))))
+             1)))
+      (:open
+       (let* ((u (aref (attempt-registers attempt) +u+))
+              (needed (closing-friction (%candidate-grasp candidate)
+                                        (copy-seq (attempt-registers attempt)))))
+         (if needed (- 1 (/ u needed)) 1)))
+      (:lifting (- 1 (/ (nth-value 1 (worst-load attempt)))))
+      (t 1))))
+
 (defun nearest-miss (plan)
-  "Return the candidate of PLAN that got farthest; of equals, the first that was tried."
-  (let ((best nil))
-    (dolist (candidate (plan-candidates plan) best)
-      (when (or (null best)
-                (> (position (candidate-outcome candidate) +steps+)
-                   (position (candidate-outcome best) +steps+)))
-        (setf best candidate)))))
+  "Return the candidate of PLAN that got farthest; of several, the one that missed by least."
+  (let* ((candidates (plan-candidates plan))
+         (step (find-if (lambda (step) (find step candidates :key #'candidate-outcome))
+                        (reverse +steps+)))
+         (best nil) (least nil))
+    (dolist (candidate candidates best)
+      (when (eq step (candidate-outcome candidate))
+        (let ((shortfall (shortfall candidate plan)))
+          (when (or (null least) (< shortfall (- least +tie+)))
+            (setf best candidate least shortfall)))))))
 
 (defun plan-reason (plan)
   "Return why the box of PLAN can't be grasped, a string: what the rule said, or the nearest miss.
 NIL if it can."
-  (let ((stop (plan-stop plan)))
+  (let* ((stop (plan-stop plan))
+         (said (and stop (eq (stop-verdict stop) :cant)))
+         (miss (and (not said) (not (plan-best plan)) (nearest-miss plan))))
     (cond ((plan-best plan) nil)
-          ((and stop (eq (stop-verdict stop) :cant)) (format nil "~{~a~^ ~}" (stop-words stop)))
-          ((nearest-miss plan)
-           (let ((miss (nearest-miss plan)))
-             (format nil "NO POSSIBLE GRASP; NEAREST MISS ~a (~{~a~^ ~}): ~a"
-                     (candidate-grasp miss) (candidate-matching miss)
-                     (nth-value 1 (candidate-failure miss plan)))))
-          (t "NO POSSIBLE GRASP; NONE HAS ALL ITS SURFACES FREE"))))
+          (said (format nil "CANT ~{~a~^ ~}" (stop-words stop)))
+          (miss (format nil "NO GRASP IS POSSIBLE, NEAREST MISS: ~a (~{~a~^ ~}): ~a"
+                        (candidate-grasp miss) (candidate-matching miss)
+                        (nth-value 1 (candidate-failure miss plan))))
+          (t "NO RULE SUGGESTS A GRASP WHOSE SURFACES ARE FREE"))))

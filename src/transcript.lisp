@@ -33,9 +33,9 @@
            (format stream "(BEST GRASP IS ~a WITH MATCHING (~{~a~^ ~}))~%(THE QUALITY INDEX IS ~a)~%"
                    (plan-grasp plan) (plan-matching plan) (short-decimal (plan-quality plan))))
           ((and stop (eq (stop-verdict stop) :cant))
-           (format stream "(RULE ~a SAYS CANT ~a)~%" (rule-name (stop-rule stop))
+           (format stream "(RULE ~a SAYS ~a)~%" (rule-name (stop-rule stop))
                    (plan-reason plan)))
-          (t (format stream "(CANT GRASP ~a)~%" (plan-reason plan))))))
+          (t (format stream "(CANT GRASP: ~a)~%" (plan-reason plan))))))
 
 (defun write-transcript (plan &optional (stream *standard-output*))
   "Write PLAN to STREAM in the lines of the paper's session."

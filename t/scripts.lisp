@@ -35,7 +35,7 @@ Returns its status, standard output and standard error."
                    (is (equal "" errors) name)))))))
 
 (test every-example-runs-and-ends
-  (let ((examples (remove "pencil" (directory (project-file "examples/*.lisp"))
+  (let ((examples (remove "pencil" (uiop:directory-files (project-file "examples/"))
                           :key #'pathname-name :test #'string=)))
     (is (>= (length examples) 8))
     (dolist (example examples)
