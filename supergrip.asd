@@ -20,7 +20,13 @@
                (:file "plan")
                (:file "failure")
                (:file "transcript")
+               (:file "explain")
+               (:file "whynot")
+               (:file "advice")
+               (:file "describe")
+               (:file "trace")
                (:file "repl")
+               (:file "edit")
                (:static-file "boot.lisp"))
   :in-order-to ((test-op (test-op "supergrip/test"))))
 
@@ -44,7 +50,9 @@
                              (:file "memory")
                              (:file "rulebase")
                              (:file "match")
-                             (:file "chainer"))))
+                             (:file "chainer")
+                             (:file "observe")
+                             (:file "check"))))
   :in-order-to ((test-op (test-op "supergrip/chainer-test"))))
 
 (defsystem "supergrip/chainer-test"
@@ -71,5 +79,7 @@
                (:file "rules")
                (:file "properties")
                (:file "errors")
+               (:file "spoiled")
+               (:file "explain")
                (:file "scripts"))
   :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))

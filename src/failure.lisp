@@ -191,10 +191,9 @@ that can't be said."
       (:lifting (- 1 (/ (nth-value 1 (worst-load attempt)))))
       (t 1))))
 
-(defun nearest-miss (plan)
-  "Return the candidate of PLAN that got farthest; of several, the one that missed by least."
-  (let* ((candidates (plan-candidates plan))
-         (step (find-if (lambda (step) (find step candidates :key #'candidate-outcome))
+(defun nearest-of (candidates plan)
+  "Return the one of CANDIDATES of PLAN that got farthest; of several, the one that missed by least."
+  (let* ((step (find-if (lambda (step) (find step candidates :key #'candidate-outcome))
                         (reverse +steps+)))
          (best nil) (least nil))
     (dolist (candidate candidates best)
@@ -208,7 +207,7 @@ that can't be said."
 NIL if it can."
   (let* ((stop (plan-stop plan))
          (said (and stop (eq (stop-verdict stop) :cant)))
-         (miss (and (not said) (not (plan-best plan)) (nearest-miss plan))))
+         (miss (and (not said) (not (plan-best plan)) (nearest-of (plan-candidates plan) plan))))
     (cond ((plan-best plan) nil)
           (said (format nil "CANT ~{~a~^ ~}" (stop-words stop)))
           (miss (format nil "NO GRASP IS POSSIBLE, NEAREST MISS: ~a (~{~a~^ ~}): ~a"

@@ -7,7 +7,7 @@
 CONTACTS a list of (SLOT P Q), P and Q being registers.  The other parts are programs (see emit).
 VALID holds, for each box face, the set of the matchings that are possible if that face is
 constrained; SAME, for each matching, the set of those that are the same grasp, itself included."
-  (name "" :type string) form file line (index 0 :type fixnum)
+  (name "" :type string) form file line (comment '()) (index 0 :type fixnum)
   (used '() :type list) (palm 0 :type fixnum)
   (conditions-node nil) (conditions nil :type (or null function))
   (offset nil :type (or null program))
@@ -27,6 +27,7 @@ constrained; SAME, for each matching, the set of those that are the same grasp, 
 start from."
   (gripper '() :type list)
   (grasps '() :type list)
+  (broken '() :type list)               ; names of grasps that were left out
   (registers (make-array +inputs-end+ :element-type 'double-float) :type registers))
 
 (defun find-grasp (graspbase name)
@@ -45,28 +46,31 @@ start from."
   "The dimensions that SUPER-GRIP itself or the printed grasp needs; a gripper may have others.")
 
 (defun parse-dimension (name value form)
-  (cond ((not (namep name))
-         (complain form "~a is not the name of a dimension" (form-text name)))
-        ((name-in name '("U" "V" "T"))
+  (cond ((name-in name '("U" "V" "T"))
          (complain form "~a can't be a dimension: it means something else in a form" name))
-        ((not (and (realp value) (as-double value) (>= value 0)))
+        ((not (and (as-double value) (>= value 0)))
          (complain form "~a is ~a; a dimension is a number from 0" name (form-text value)))
         (t (cons (symbol-name name) (as-double value)))))
 
-(defun parse-gripper (plist form)
-  "Return the alist of the dimensions of PLIST, complaining of what is wrong."
-  (let ((dimensions '()))
-    (unless (evenp (length plist))
-      (complain form "a gripper is a list of names and numbers in turn"))
-    (loop for (name value) on plist by #'cddr
-          do (let ((entry (parse-dimension name value form)))
-               (cond ((null entry))
-                     ((assoc (car entry) dimensions :test #'string=)
-                      (complain form "~a is given twice" (car entry)))
-                     (t (push entry dimensions)))))
+(defun parse-gripper (list form)
+  "Return the alist of the dimensions in LIST, names and numbers in turn, complaining of what is
+wrong."
+  (let ((dimensions '()) (names '()))
+    (loop while list
+          do (let ((name (pop list)))
+               (cond ((not (namep name))
+                      (complain form "~a is not the name of a dimension" (form-text name)))
+                     ((not (realp (first list)))
+                      (push name names)
+                      (complain form "~a has no number after it" name))
+                     ((name-in name names)
+                      (complain form "~a is given twice" name)
+                      (pop list))
+                     (t (push name names)
+                        (let ((entry (parse-dimension name (pop list) form)))
+                          (when entry (push entry dimensions)))))))
     (dolist (name +dimensions+)
-      (unless (or (assoc name dimensions :test #'string=)
-                  (loop for key in plist by #'cddr thereis (name= key name)))
+      (unless (find-if (lambda (given) (name= given name)) names)
         (complain form "~a is missing" name)))
     (check-gripper dimensions form)
     (nreverse dimensions)))
@@ -94,7 +98,8 @@ start from."
   (let* ((name (and (consp (rest form)) (namep (second form)) (second form)))
          (parameters (and (= (length form) 4) (listp (third form)) (third form)))
          (*subject* (format nil "DEFUN ~a" (if name name "without a name"))))
-    (cond ((or (null name) (/= (length form) 4) (notevery #'namep parameters))
+    (cond ((or (null name) (/= (length form) 4) (not (listp (third form)))
+               (notevery #'namep parameters))
            (complain form "a helper is (DEFUN name (parameter...) form)"))
           ((name-in name (append (operators scope) +comparisons+ '("AND" "OR" "NOT" "LIST")))
            (complain form "~a is already an operator" name))
@@ -117,9 +122,9 @@ start from."
   "Return an alist of the keys of PLIST, complaining of unknown, repeated and missing ones."
   (let ((entries '()))
     (unless (evenp (length plist))
-      (complain form "a grasp is a list of keys and values in turn: ~a has ~d parts"
-                (form-text plist) (length plist)))
-    (loop for (key value) on plist by #'cddr
+      (complain form "a grasp is a list of keys and values in turn; the last, ~a, has no value"
+                (form-text (first (last plist)))))
+    (loop for (key value) on (if (evenp (length plist)) plist (butlast plist)) by #'cddr
           do (cond ((not (name-in key +grasp-keys+))
                     (complain form "unknown key ~a~a; keys are ~{~a~^, ~}" (form-text key)
                               (if (namep key) (suggestion (symbol-name key) +grasp-keys+) "")
@@ -133,9 +138,9 @@ start from."
 (defun parse-used (value form)
   (let ((slots (and (consp value) (mapcar #'slot-index value))))
     (cond ((or (null slots) (member nil slots))
-           (complain form "~a: USED-SURFACES are some of N1 N2 O1 O2 A1 A2" (form-text value)))
+           (complain value "~a: USED-SURFACES are some of N1 N2 O1 O2 A1 A2" (form-text value)))
           ((/= (length slots) (length (remove-duplicates slots)))
-           (complain form "~a: the same surface twice" (form-text value)))
+           (complain value "~a: the same surface twice" (form-text value)))
           (t slots))))
 
 (defun parse-palm (entry used form)
@@ -152,14 +157,14 @@ start from."
                      (svref +slots+ slot)))
           (t slot))))
 
-(defun parse-contact (contact used scope form)
+(defun parse-contact (contact used scope)
   "Return (SLOT NODE NODE) of CONTACT, (FACE P Q), or NIL after a complaint."
   (let ((slot (and (consp contact) (slot-index (first contact)))))
     (cond ((or (null slot) (/= (length contact) 3))
-           (complain form "~a is not a contact: a face, and its place on it along the two other ~
+           (complain contact "~a is not a contact: a face, and its place on it along the two other ~
                            axes, as (N1 0 0)" (form-text contact)))
           ((not (member slot used))
-           (complain form "a finger is on ~a, which is not one of USED-SURFACES"
+           (complain contact "a finger is on ~a, which is not one of USED-SURFACES"
                      (svref +slots+ slot)))
           (t (let ((p (parse-number-form (second contact) scope))
                    (q (parse-number-form (third contact) scope)))
@@ -173,12 +178,19 @@ start from."
                             unless (eql slot palm) collect (list (svref +slots+ slot) 0 0)))))
     (cond ((null contacts) (complain form "CONTACTS lists no contact"))
           (t (let ((parsed (loop for contact in contacts
-                                 collect (parse-contact contact used scope form))))
+                                 collect (parse-contact contact used scope))))
                (and (notany #'null parsed) parsed))))))
 
 (defstruct draft
   "A grasp whose forms are checked and are nodes still."
-  name form file line used palm conditions offset contacts wrench twist)
+  name form file line comment used palm conditions offset contacts wrench twist)
+
+(defun parse-conditions (form scope)
+  "Return the node of FORM, the grasping conditions; warn if they never hold."
+  (let ((node (parse-test form scope)))
+    (when (and node (eq (node-op node) :false))
+      (complain form '(:warning "these conditions are false for every box")))
+    node))
 
 (defun negative-twist (node)
   "Return the first constant below zero in NODE, a list of six, or NIL."
@@ -188,6 +200,12 @@ start from."
 
 (defun parse-grasp (name plist form scope)
   "Return the draft of the grasp NAME, whose description is PLIST, or NIL after a complaint."
+  (if (notany (lambda (part) (name-in part +grasp-keys+)) plist)
+      (complain form "~a is no grasp~a: its list has none of the keys ~{~a~^, ~}" name
+                (suggestion (symbol-name name) '("GRIPPER")) +grasp-keys+)
+      (parse-grasp-parts name plist form scope)))
+
+(defun parse-grasp-parts (name plist form scope)
   (let ((*subject* (format nil "GRASP ~a" name)) (*form* form)
         (entries (let ((*subject* (format nil "GRASP ~a" name))) (grasp-plist plist form))))
     (flet ((value (key) (cdr (assoc key entries :test #'string=)))
@@ -199,16 +217,17 @@ start from."
                (contacts (and used palm
                               (let ((*place* "CONTACTS"))
                                 (parse-contacts (given "CONTACTS") used palm scope form))))
-               (conditions (part "CONDITIONS" (parse-test (value "CONDITIONS") scope)))
+               (conditions (part "CONDITIONS" (parse-conditions (value "CONDITIONS") scope)))
                (offset (part "OFFSET" (parse-six (value "OFFSET") scope)))
                (wrench (part "WRENCH" (parse-six (value "WRENCH") scope)))
                (twist (part "TWIST" (parse-six (value "TWIST") scope))))
           (when (negative-twist twist)
             (let ((*place* "TWIST"))
-              (setf twist (complain form "an entry below 0: mobility is 0 or more"))))
+              (setf twist (complain (value "TWIST") "an entry below 0: mobility is 0 or more"))))
           (and used palm contacts conditions offset wrench twist
                (make-draft :name (symbol-name name) :form form :file *file*
                            :line (and *lines* (gethash form *lines*))
+                           :comment (and *comments* (gethash form *comments*))
                            :used used :palm palm :contacts contacts :conditions conditions
                            :offset offset :wrench wrench :twist twist)))))))
 
@@ -259,7 +278,7 @@ after TURN as far as the paper's index can tell, which takes the lesser of two d
            (places (program-results positions)))
       (prog1 (make-grasp
               :name (draft-name draft) :form (draft-form draft) :file (draft-file draft)
-              :line (draft-line draft)
+              :line (draft-line draft) :comment (draft-comment draft)
               :used (draft-used draft) :palm (draft-palm draft)
               :conditions-node (draft-conditions draft)
               :conditions (emit-test (draft-conditions draft) (make-code :layout layout))
@@ -288,7 +307,13 @@ after TURN as far as the paper's index can tell, which takes the lesser of two d
   (and (part-named-p form "SETQ") (consp (rest form)) (name= (second form) "GRIPPER")))
 
 (defun global-scope (gripper)
-  (let ((scope (make-scope)))
+  "Return the scope of a grasp file with GRIPPER.  Dimensions that it lacks, of which was complained,
+are known all the same, so that no form is blamed for them."
+  (let ((scope (make-scope))
+        (gripper (append gripper
+                         (loop for name in +dimensions+
+                               unless (assoc name gripper :test #'string=)
+                                 collect (cons name 1d0)))))
     (setf (scope-variables scope)
           (list* (cons "U" (input-node +u+)) (cons "V" (input-node +v+))
                  (loop for (name . number) in gripper
@@ -312,14 +337,16 @@ after TURN as far as the paper's index can tell, which takes the lesser of two d
 Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
   (let* ((gripper (build-gripper forms))
          (scope (global-scope gripper))
-         (drafts '()))
+         (drafts '()) (broken '()))
     (dolist (form forms)
       (let ((*form* form))
         (cond ((gripper-form-p form))
               ((part-named-p form "DEFUN") (parse-helper form scope))
               (t (multiple-value-bind (name plist) (definition-form form)
                    (let ((draft (and name (parse-grasp name plist form scope))))
-                     (cond ((null draft))
+                     (cond ((null draft)
+                            (when (and (consp (rest form)) (namep (second form)))
+                              (push (symbol-name (second form)) broken)))
                            ((find (draft-name draft) drafts :key #'draft-name :test #'string=)
                             (let ((*subject* (format nil "GRASP ~a" name)))
                               (complain form "there is a grasp of this name before it")))
@@ -327,4 +354,4 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
     (let* ((layout (scope-layout scope))
            (grasps (loop for draft in (reverse drafts) collect (finish-grasp draft layout))))
       (loop for grasp in grasps for index from 0 do (setf (grasp-index grasp) index))
-      (make-graspbase :gripper gripper :grasps grasps :registers (make-registers layout)))))
+      (make-graspbase :gripper gripper :grasps grasps :broken broken :registers (make-registers layout)))))

@@ -3,7 +3,9 @@
 (in-package :supergrip)
 
 (defstruct (knowledge (:constructor %make-knowledge))
-  "Rules and grasps, ready for use; immutable.  WARNINGS holds PROBLEMs that did not prevent it."
+  "Rules and grasps, ready for use; immutable.  RULE-FILE and GRASP-FILE are what they were made of,
+WARNINGS the PROBLEMs that did not prevent it."
+  (rule-file nil) (grasp-file nil)
   (rulebase nil :type rulebase)
   (graspbase nil :type graspbase)
   (predicates #() :type simple-vector)
@@ -31,28 +33,68 @@
 (SLIPPERY-U: a coefficient)."
   (graspbase-gripper (knowledge-graspbase knowledge)))
 
-(defun assemble (rulebase graspbase problems)
+(defstruct data-file
+  "A rule or grasp file that was read: its PATH, if it is one, its NAME in reports, its FORMS, LINES,
+a table from form to line, COMMENTS, one from form to comment, and the PROBLEMS of reading it."
+  (path nil) (name nil) (forms '() :type list) (lines nil) (comments nil) (problems '() :type list))
+
+(defun assemble (rulebase graspbase rule-file grasp-file problems)
   (flet ((size (name) (or (dimension graspbase name) 0d0)))
     (%make-knowledge :rulebase rulebase :graspbase graspbase
+                     :rule-file rule-file :grasp-file grasp-file
                      :predicates (rulebase-predicates rulebase)
                      :finger-width (size "FINGER-WIDTH") :finger-spread (size "FINGER-SPREAD")
                      :dist-pinch (size "DIST-PINCH") :slippery-u (size "SLIPPERY-U")
-                     :warnings (remove :error problems :key #'problem-severity))))
+                     :warnings (warnings-in problems))))
 
-(defun build-knowledge (rule-forms rule-lines rule-file grasp-forms grasp-lines grasp-file)
-  "Return the knowledge of the forms of a rule and a grasp file, and the list of all problems.
-LINES are tables from form to line, or NIL.  What is wrong is left out."
-  (let ((graspbase nil) (rulebase nil))
-    (multiple-value-bind (value problems)
-        (with-problems
-          (let ((*file* grasp-file) (*lines* grasp-lines) (*form* nil))
-            (setf graspbase (build-graspbase grasp-forms)))
-          (let ((*file* rule-file) (*lines* rule-lines) (*form* nil))
-            (setf rulebase (build-rulebase rule-forms +inputs+ :client graspbase))
-            (when (null rule-forms)
-              (complain nil "there is no rule"))))
-      (declare (ignore value))
-      (values (assemble rulebase graspbase problems) problems))))
+(defmacro with-data-file ((file) &body body)
+  "Run BODY with what it complains of placed in the data file FILE."
+  `(let ((*file* (data-file-name ,file)) (*lines* (data-file-lines ,file))
+         (*comments* (data-file-comments ,file)) (*form* nil))
+     ,@body))
+
+(defun build-knowledge (rule-file grasp-file)
+  "Return the knowledge in RULE-FILE and GRASP-FILE, data files, and the list of all problems.
+What is wrong is left out."
+  (multiple-value-bind (bases problems)
+      (with-problems
+        (let* ((graspbase (with-data-file (grasp-file)
+                            (build-graspbase (data-file-forms grasp-file))))
+               (rulebase (with-data-file (rule-file)
+                           (build-rulebase (data-file-forms rule-file) +inputs+
+                                           :client graspbase))))
+          (check-knowledge graspbase rule-file grasp-file)
+          (cons rulebase graspbase)))
+    ;; What follows from a file that could not be read at all is no news.
+    (let ((problems (or (append (data-file-problems grasp-file) (data-file-problems rule-file))
+                        problems)))
+      (values (assemble (car bases) (cdr bases) rule-file grasp-file problems) problems))))
+
+;;; What can't be meant
+
+(defun check-knowledge (graspbase rule-file grasp-file)
+  "Warn of what is valid in rules and grasps but can't be meant."
+  (with-data-file (rule-file)
+    (when (null (data-file-forms rule-file))
+      (complain nil "there is no rule"))
+    (check-rules (data-file-forms rule-file) +inputs+))
+  (with-data-file (grasp-file)
+    (check-tried graspbase (data-file-forms rule-file))))
+
+(defun tried-names (form)
+  "Return the names of the grasps that the rule FORM tries."
+  (loop for action in (rest (find-if (lambda (part) (part-named-p part "THEN")) form))
+        when (and (part-named-p action "TRY") (consp (rest action)) (namep (second action)))
+          collect (symbol-name (second action))))
+
+(defun check-tried (graspbase rule-forms)
+  "Warn of grasps that no rule tries."
+  (let ((tried (loop for form in rule-forms
+                     when (part-named-p form "RULE") append (tried-names form))))
+    (dolist (grasp (graspbase-grasps graspbase))
+      (unless (member (grasp-name grasp) tried :test #'string=)
+        (let ((*subject* (format nil "GRASP ~a" (grasp-name grasp))))
+          (complain (grasp-form grasp) '(:warning "no rule tries it")))))))
 
 ;;; Files
 
@@ -60,55 +102,48 @@ LINES are tables from form to line, or NIL.  What is wrong is left out."
   "Return the file NAME of SUPER-GRIP itself."
   (asdf:system-relative-pathname "supergrip" name))
 
-(defun read-data-file (file)
-  "Return the forms of FILE, a table from form to line, and a list of problems."
-  (handler-case
-      (with-open-file (in file :external-format '(:utf-8 :replacement #\ufffd))
-        (multiple-value-bind (forms lines)
-            (read-all (stream-source in :name (report-name file)))
-          (values forms lines '())))
-    (syntax-error (condition)
-      (values '() nil (input-error-problems condition)))
-    (file-error ()
-      (values '() nil (list (make-file-problem file "this file can't be opened"))))
-    (stream-error ()
-      (values '() nil (list (make-file-problem file "this file can't be read"))))))
+(defun read-data-file (path)
+  "Return the data file at PATH; what prevents its being read is among its problems."
+  (let ((name (file-namestring path)))
+    (flet ((unusable (problems)
+             (make-data-file :path path :name name :problems problems)))
+      (handler-case
+          (with-open-file (in path :external-format '(:utf-8 :replacement #\ufffd))
+            (multiple-value-bind (forms lines comments) (read-all (stream-source in :name name))
+              (make-data-file :path path :name name :forms forms :lines lines
+                              :comments comments)))
+        (syntax-error (condition)
+          (unusable (input-error-problems condition)))
+        (file-error ()
+          (unusable (list (make-problem :file name :text "this file can't be opened"))))
+        (stream-error ()
+          (unusable (list (make-problem :file name :text "this file can't be read"))))))))
 
-(defun make-file-problem (file text)
-  (supergrip-data::make-problem :file (report-name file) :text text))
-
-(defun report-name (file)
-  "Return the name of FILE as reports give it."
-  (file-namestring file))
-
-(defun read-knowledge (rules grasps)
-  "Return the knowledge of the files RULES and GRASPS, and the list of all problems."
-  (multiple-value-bind (rule-forms rule-lines rule-problems) (read-data-file rules)
-    (multiple-value-bind (grasp-forms grasp-lines grasp-problems) (read-data-file grasps)
-      (multiple-value-bind (knowledge problems)
-          (build-knowledge rule-forms rule-lines (report-name rules)
-                           grasp-forms grasp-lines (report-name grasps))
-        ;; What follows from a file that could not be read at all is no news.
-        (values knowledge (if (or rule-problems grasp-problems)
-                              (append grasp-problems rule-problems)
-                              problems))))))
+(defun accept-knowledge (make)
+  "Return the knowledge that MAKE, a function that returns it and a list of problems, makes.
+Signals a KNOWLEDGE-ERROR with all of them if one is an error; restarts: RETRY calls MAKE again,
+CONTINUE goes on without the rules and grasps that are wrong.  Warns if there are only warnings."
+  (loop
+    (multiple-value-bind (knowledge problems) (funcall make)
+      (cond ((errors-in problems)
+             (restart-case (error 'knowledge-error :problems problems)
+               (retry ()
+                 :report "Read the rules and the grasps again.")
+               (continue ()
+                 :report "Go on without the rules and grasps that are wrong."
+                 (return knowledge))))
+            (t
+             (when problems
+               (warn 'knowledge-warning :problems problems))
+             (return knowledge))))))
 
 (defun load-knowledge (&key (rules (shipped-file "rules.lisp"))
                          (grasps (shipped-file "grasps.lisp")))
   "Read the files RULES and GRASPS, by default those that are shipped, and return their knowledge.
 Signals one KNOWLEDGE-ERROR that holds all that is wrong with them; restarts: RETRY reads the files
-again, CONTINUE leaves out the rules and grasps that are wrong."
-  (loop
-    (multiple-value-bind (knowledge problems) (read-knowledge rules grasps)
-      (let ((errors (errors-in problems)))
-        (when (null errors)
-          (return knowledge))
-        (restart-case (error 'knowledge-error :problems errors)
-          (retry ()
-            :report "Read the rules and the grasps again.")
-          (continue ()
-            :report "Go on without the rules and grasps that are wrong."
-            (return knowledge)))))))
+again, CONTINUE leaves out the rules and grasps that are wrong.  What is valid but can't be meant is
+a KNOWLEDGE-WARNING."
+  (accept-knowledge (lambda () (build-knowledge (read-data-file rules) (read-data-file grasps)))))
 
 (defvar *knowledge* (load-knowledge)
   "The rules and grasps that plans use if no others are given.")

@@ -7,6 +7,25 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
   (:export
    ;; the paper's session
    #:box #:forward-chain #:possible-grasps #:*plan*
+   ;; asking why
+   #:how #:why-not #:explain-best #:describe-rule #:describe-grasp
+   #:explain-fact #:explain-refusal #:advise #:write-answer
+   #:derivation #:derivation-p #:derivation-predicate #:derivation-packed #:derivation-rule #:derivation-binding #:derivation-parts #:derivation-note
+   #:assumption #:unknown-fact #:unknown-fact-refusals
+   #:refusal #:refusal-rule #:refusal-fired #:refusal-stop #:refusal-number #:refusal-clause
+   #:refusal-bindings #:refusal-blocks
+   #:not-chosen #:not-chosen-kind #:not-chosen-text #:not-chosen-grasp #:not-chosen-matching
+   #:not-chosen-candidates #:not-chosen-refusals #:not-chosen-outcome #:not-chosen-margin
+   #:not-chosen-faces
+   #:advice #:advice-sentence #:advice-force #:advice-velocity #:advice-runner-up #:advice-margin
+   #:advice-changes #:limit #:limit-axis #:limit-has #:limit-needs #:limit-radius
+   #:change #:change-what #:change-from #:change-to #:change-box #:change-plan
+   ;; watching
+   #:*trace-level* #:trace-rule #:untrace-rule #:trace-grasp #:untrace-grasp
+   #:break-on #:unbreak #:chain-break #:next-rule #:rule-counts
+   ;; editing
+   #:rule #:edit #:reload-knowledge #:compare-knowledge
+   #:difference #:difference-box #:difference-what #:difference-old #:difference-new
    ;; boxes
    #:parse-box #:box-name #:box-size #:box-weight #:box-friction #:box-soft-friction
    #:box-constrained #:box-force-needed #:box-velocity-needed
@@ -27,10 +46,12 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:try-grasp
    ;; conditions, from the data layer
    #:supergrip-error #:input-error #:input-error-problems #:syntax-error #:box-error
-   #:knowledge-error #:retry #:no-box-error #:no-plan-error #:no-grasp-error #:gamma-error
+   #:knowledge-error #:knowledge-warning #:knowledge-warning-problems #:retry #:no-box-error #:no-plan-error #:no-grasp-error #:no-rule-error #:no-fact-error
+   #:gamma-error
    #:problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text))
 
 (defpackage :supergrip-user
   (:use :cl :supergrip)
+  (:shadow #:setq)
   (:documentation "A package to type in."))

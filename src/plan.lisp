@@ -5,6 +5,15 @@
 (defparameter *gamma* 0.5d0
   "The selection parameter of the quality index: Q = gamma u_t + (1 - gamma) u_w.")
 
+(defvar *plan* nil "The plan that FORWARD-CHAIN made last, or NIL.")
+
+(define-condition no-plan-error (supergrip-error) ()
+  (:report "there is no plan yet: call (forward-chain) first")
+  (:documentation "A question about a plan was asked before there was one."))
+
+(defun need-plan (plan)
+  (or plan (error 'no-plan-error)))
+
 (defstruct (plan (:constructor %make-plan) (:copier nil))
   "What was decided for a box, and all that led to it."
   (box nil :type box) (knowledge nil :type knowledge) (gamma 0.5d0 :type double-float)

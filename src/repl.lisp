@@ -2,8 +2,6 @@
 
 (in-package :supergrip)
 
-(defvar *plan* nil "The plan that FORWARD-CHAIN made last, or NIL.")
-
 (defvar *box* nil)
 (setf (documentation '*box* 'variable) "The box that BOX was set to last, or NIL.")
 
@@ -22,25 +20,22 @@
 (define-symbol-macro box (current-box))
 
 (defun forward-chain (&key ((:box given) *box*) (knowledge *knowledge*) (gamma *gamma*)
-                        (stream *standard-output*))
+                        (stream *standard-output*) (trace *trace-level*) step)
   "Choose the best grasp for the box, print what the rules say, what is possible and what is best,
 and return the plan, which *PLAN* also holds.
 
 BOX is a box or a description of one, by default what (setq box ...) gave; GAMMA weighs velocities
-(1) against forces (0); STREAM is where to print, NIL for not at all."
+(1) against forces (0); STREAM is where to print, NIL for not at all; TRACE says how much to print
+(see *TRACE-LEVEL*); STEP, if true, stops in the debugger before each rule."
   (unless given
     (error 'no-box-error))
-  (setf *plan* (plan given :knowledge knowledge :gamma gamma))
-  (when stream
+  (setf *plan*
+        (if (or step *traced* *breaks* (> trace 1))
+            (traced-plan given knowledge gamma trace step (or stream (make-broadcast-stream)))
+            (plan given :knowledge knowledge :gamma gamma)))
+  (when (and stream (= trace 1) (not (or step *traced* *breaks*)))
     (write-transcript *plan* stream))
   *plan*)
-
-(defun need-plan (plan)
-  (or plan (error 'no-plan-error)))
-
-(define-condition no-plan-error (supergrip-error) ()
-  (:report "there is no plan yet: call (forward-chain) first")
-  (:documentation "A question about a plan was asked before there was one."))
 
 (defun possible-grasps (&optional (plan *plan*))
   "Return the paper's list POSSIBLE-GRASPS of PLAN, the best first: for each possible grasp its

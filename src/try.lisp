@@ -250,27 +250,30 @@ return true as the second value."
                  (loop for element in list
                        collect (if (name= element "?") nil (pop terms)))))))))
 
+(defun compile-try (action grasp)
+  "Make ACTION try GRASP, if its suggestion is good."
+  (multiple-value-bind (terms bad) (parse-suggestion (rest (action-operands action)) action)
+    (unless bad
+      (setf (action-target action) grasp
+            (action-terms action) terms
+            (action-function action)
+            (lambda (memory binding)
+              (try-matchings (memory-client memory) grasp (suggested-matchings terms binding)
+                             (lambda (candidate) (push candidate (memory-log memory))))
+              nil)))))
+
 (define-action :try (action rulebase)
   (let* ((name (first (action-operands action)))
          (graspbase (rulebase-client rulebase))
          (grasp (and (namep name) (find-grasp graspbase (symbol-name name)))))
-    (if (null grasp)
-        (complain (action-form action) "TRY names ~:[a grasp~;~:*~a, which is not in the database~]~a"
-                  (and (namep name) name)
-                  (if (namep name)
-                      (suggestion (symbol-name name)
-                                  (mapcar #'grasp-name (graspbase-grasps graspbase)))
-                      ", as (TRY PINCH-3-PARALLEL)"))
-        (multiple-value-bind (terms bad) (parse-suggestion (rest (action-operands action)) action)
-          (unless bad
-            (setf (action-target action) grasp
-                  (action-terms action) terms
-                  (action-function action)
-                  (lambda (memory binding)
-                    (try-matchings (memory-client memory) grasp
-                                   (suggested-matchings terms binding)
-                                   (lambda (candidate) (push candidate (memory-log memory))))
-                    nil)))))))
+    (cond (grasp (compile-try action grasp))
+          ((not (namep name))
+           (complain (action-form action) "TRY names a grasp, as (TRY PINCH-3-PARALLEL)"))
+          ;; Of a grasp that is wrong enough was said.
+          ((name-in name (graspbase-broken graspbase)))
+          (t (complain (action-form action) "TRY names ~a, which is not in the database~a" name
+                       (suggestion (symbol-name name)
+                                   (mapcar #'grasp-name (graspbase-grasps graspbase))))))))
 
 (define-action :keep (action rulebase)
   (if (and (= (length (action-operands action)) 1) (name= (first (action-operands action)) "BEST"))

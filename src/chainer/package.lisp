@@ -10,12 +10,12 @@ one generic function.")
    #:+surfaces+ #:surface #:surface-index #:surface-name #:opposite #:surface-axis #:surface-sign
    #:pack #:pack-mask #:pack-count #:pack-elements #:pack-names
    ;; predicates and working memory
-   #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
+   #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text #:predicate-given #:predicate-given
    #:memory #:make-memory #:memory-client #:memory-log
    #:recall #:remember #:facts #:assertions
    ;; rules
    #:rule #:rule-name #:rule-form #:rule-index #:rule-clauses #:rule-actions #:rule-variables
-   #:rule-line #:rule-file
+   #:rule-line #:rule-file #:rule-comment
    #:clause #:clause-negated #:clause-predicate #:clause-terms #:clause-form
    #:action #:action-verb #:action-form #:action-predicate #:action-terms #:action-target
    #:action-function #:action-operands
@@ -26,4 +26,5 @@ one generic function.")
    #:term-variable-p #:term-value #:instantiate #:*rule*
    ;; running
    #:run-rules #:stop #:stop-verdict #:stop-rule #:stop-words #:make-stop
+   #:rule-bindings #:prefix-bindings #:run-observed #:binding-text #:check-rules
    #:log-event #:event-rule #:event-action #:event-binding #:event-fact))

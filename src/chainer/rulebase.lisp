@@ -15,8 +15,8 @@ PREDICATE and TERMS are what it remembers, TARGET what else it names, if anythin
   (predicate nil) (terms '() :type list) (target nil))
 
 (defstruct rule
-  "A rule.  VARIABLES are the names of its variables; the place of one is its number."
-  (name nil) (form nil) (file nil) (line nil) (index 0 :type fixnum)
+  "A rule.  COMMENT is the list of the lines before it in its file.  VARIABLES are the names of its variables; the place of one is its number."
+  (name nil) (form nil) (file nil) (line nil) (comment '()) (index 0 :type fixnum)
   (variables '() :type list)
   (clauses '() :type list)
   (actions '() :type list)
@@ -69,6 +69,8 @@ level are compiled against."
 (defvar *rule*)
 (setf (documentation '*rule* 'variable) "The rule being read.")
 
+(defvar *clause-failed* nil "True if a clause of the rule being read is wrong.")
+
 (defun variable-name-p (name)
   (and (namep name)
        (char= (char (symbol-name name) 0) #\S)
@@ -77,7 +79,7 @@ level are compiled against."
 (defun intern-variable (name bind form)
   "Return the number of the variable NAME; new ones are allowed if BIND is true."
   (or (position (symbol-name name) (rule-variables *rule*) :test #'string=)
-      (cond ((not bind)
+      (cond ((not (or bind *clause-failed*)) ; it may stand in the clause that is wrong
              (complain form "the variable ~a stands in no clause of the antecedent" name))
             ((= (length (rule-variables *rule*)) 6)
              (complain form "more than six variables: a box has six surfaces"))
@@ -171,8 +173,8 @@ the last perhaps a list of surfaces.  Returns NIL after a complaint."
 (defvar *action-verbs* '() "The verbs that DEFINE-ACTION has defined.")
 
 (defun action-verbs ()
-  "Return the verbs that actions may begin with, as strings."
-  (reverse *action-verbs*))
+  "Return the verbs that actions may begin with, as strings, in the order of their definition."
+  *action-verbs*)
 
 (defgeneric compile-action (verb action rulebase)
   (:documentation "Fill ACTION, the FUNCTION at least, for its VERB, a keyword; complain of what is
@@ -182,11 +184,14 @@ wrong in it.  This is where an action is attached: DEFINE-ACTION adds a method."
     (complain (action-form action) "~a is no action; actions are ~{~a~^, ~}~a" verb
               (action-verbs) (suggestion (string verb) (action-verbs)))))
 
+(defun adjoin-last (verb verbs)
+  (if (member verb verbs :test #'string=) verbs (append verbs (list verb))))
+
 (defmacro define-action (verb (action rulebase) &body body)
   "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, complains of what
 is wrong, and stores the ACTION-FUNCTION."
   `(progn
-     (pushnew ,(symbol-name verb) *action-verbs* :test #'string=)
+     (setf *action-verbs* (adjoin-last ,(symbol-name verb) *action-verbs*))
      (defmethod compile-action ((verb (eql ,verb)) ,action ,rulebase)
        (declare (ignorable ,rulebase))
        ,@body)))
@@ -223,8 +228,13 @@ NIL after a complaint."
          (*place* nil)
          (*form* form)
          (*rule* (make-rule :name (and name (symbol-name name)) :form form :file *file*
-                            :line (and *lines* (gethash form *lines*)))))
-    (cond ((or (null name) (/= (length form) 4)
+                            :line (and *lines* (gethash form *lines*))
+                            :comment (and *comments* (gethash form *comments*)))))
+    (cond ((not (part-p form "RULE"))
+           (let ((*subject* nil))
+             (complain form "~a is no rule: a rule file holds (RULE name (IF clause...) (THEN ~
+                             action...))" (form-text form))))
+          ((or (null name) (/= (length form) 4)
                (not (part-p (third form) "IF")) (not (part-p (fourth form) "THEN")))
            (complain form "a rule is (RULE name (IF clause...) (THEN action...))"))
           ((null (rest (third form)))
@@ -232,8 +242,10 @@ NIL after a complaint."
           ((null (rest (fourth form)))
            (complain form "THEN has no action"))
           (t
-           (setf (rule-clauses *rule*) (parse-parts #'parse-clause (rest (third form)) "clause")
-                 (rule-actions *rule*) (parse-parts #'parse-action (rest (fourth form)) "action"))
+           (setf (rule-clauses *rule*) (parse-parts #'parse-clause (rest (third form)) "clause"))
+           (let ((*clause-failed* (member nil (rule-clauses *rule*))))
+             (setf (rule-actions *rule*)
+                   (parse-parts #'parse-action (rest (fourth form)) "action")))
            (and (notany #'null (rule-clauses *rule*))
                 (notany #'null (rule-actions *rule*))
                 *rule*)))))

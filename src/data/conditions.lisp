@@ -47,9 +47,21 @@ far as it is known; SUBJECT is the rule, grasp or box (\"RULE GRIP1\"), PLACE th
 (define-condition box-error (input-error) ()
   (:documentation "A box description is not valid."))
 
-(define-condition knowledge-error (input-error) ()
+(define-condition knowledge-error (input-error)
+  ((consequence :initform nil :accessor knowledge-error-consequence
+                :documentation "A sentence on what this leaves in force, or NIL."))
+  (:report (lambda (condition stream)
+             (format stream "~{~a~^~%~}~@[~%~a~]" (input-error-problems condition)
+                     (knowledge-error-consequence condition))))
   (:documentation "Rules or grasps are not valid.  Restarts: RETRY reads the files again, CONTINUE
 goes on without the rules and grasps that are wrong."))
+
+(define-condition knowledge-warning (warning)
+  ((problems :initarg :problems :reader knowledge-warning-problems
+             :documentation "The list of PROBLEMs, all of them, in the order of the files."))
+  (:report (lambda (condition stream)
+             (format stream "~{~a~^~%~}" (knowledge-warning-problems condition))))
+  (:documentation "Rules or grasps are valid but can't be meant so."))
 
 (defun retry ()
   "Invoke the restart RETRY: read the knowledge files again."
@@ -59,6 +71,7 @@ goes on without the rules and grasps that are wrong."))
 
 (defvar *file* nil "The name of the file whose contents are being checked, or NIL.")
 (defvar *lines* nil "A table from each list read from that file to its line, or NIL.")
+(defvar *comments* nil "A table from each outermost list of that file to the comment before it.")
 (defvar *subject* nil "What is being checked, for the reports: \"RULE GRIP1\".")
 (defvar *place* nil "Which part of it: \"clause 2\".")
 (defvar *form* nil "The innermost list being checked whose line is known.")
@@ -72,10 +85,10 @@ goes on without the rules and grasps that are wrong."))
 A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL."
   (let ((severity (if (consp control) (first control) :error))
         (control (if (consp control) (second control) control)))
-    (push (make-problem :severity severity :file *file* :line (line-of form)
-                        :subject *subject* :place *place*
-                        :text (apply #'format nil control arguments))
-          *problems*))
+    (pushnew (make-problem :severity severity :file *file* :line (line-of form)
+                           :subject *subject* :place *place*
+                           :text (apply #'format nil control arguments))
+             *problems* :test #'equalp))
   nil)
 
 (defmacro with-problems (&body body)
@@ -83,6 +96,10 @@ A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL."
   `(let ((*problems* '()))
      (let ((value (progn ,@body)))
        (values value (reverse *problems*)))))
+
+(defun warnings-in (problems)
+  "Return those of PROBLEMS that are warnings."
+  (remove :warning problems :key #'problem-severity :test-not #'eq))
 
 (defun errors-in (problems)
   "Return those of PROBLEMS that are errors."
@@ -116,7 +133,9 @@ A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL."
         (best nil) (least nil))
     (dolist (word known)
       (let ((distance (edit-distance text word)))
-        (when (and (<= distance (max 1 (floor (length word) 3)))
+        ;; Any two short names are close.
+        (when (and (> (length text) 2)
+                   (<= distance (min 3 (max 1 (floor (length word) 3))))
                    (or (null least) (< distance least)))
           (setf best word least distance))))
     (if best (format nil " (did you mean ~a?)" best) "")))

@@ -8,11 +8,12 @@ in them.")
    ;; problems
    #:problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text
-   #:complain #:with-problems #:*file* #:*lines* #:*subject* #:*place* #:*form*
-   #:errors-in #:suggestion
+   #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
+   #:make-problem #:errors-in #:warnings-in #:suggestion
    ;; conditions
    #:supergrip-error #:input-error #:input-error-problems
-   #:syntax-error #:box-error #:knowledge-error
+   #:syntax-error #:box-error #:knowledge-error #:knowledge-error-consequence
+   #:knowledge-warning    #:knowledge-warning-problems
    #:retry
    ;; names and forms
    #:name-text #:name= #:name-in #:namep #:canonical #:form-text #:as-double

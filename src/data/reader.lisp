@@ -25,6 +25,8 @@ next buffer and its end, or NIL at the end."
   (record-offset 0 :type fixnum)        ; of the current record's first character
   (record-start-line 1 :type fixnum)
   (lines nil)                           ; NIL or a table from list to line
+  (comment '() :type list)              ; the lines of comment just before, the latest first
+  (comments nil)                        ; NIL or a table from outermost list to its comment
   (token (make-string 128) :type (simple-array character (*))))
 
 (defun string-source (string &key name)
@@ -137,23 +139,44 @@ integers, ratios or doubles; 'X becomes (QUOTE X).  Signals a SYNTAX-ERROR."
   (start-record source)
   (loop for character = (peek source)
         while (and character (or (blankp character) (char= character #\;)))
-        do (skip-line-blanks source)
+        do (skip-between source)
            (start-record source))
   (if (peek source)
-      (read-form source 0)
+      (let ((form (read-form source 0)))
+        (when (and (source-comments source) (consp form))
+          (setf (gethash form (source-comments source)) (reverse (source-comment source))))
+        (setf (source-comment source) '())
+        form)
       (end-of-data)))
 
 (defun start-record (source)
   (setf (source-record-offset source) (+ (source-offset source) (source-position source))
         (source-record-start-line source) (source-line source)))
 
-(defun skip-line-blanks (source)
-  "Skip one blank character, or a comment of any length."
-  (if (char= (peek source) #\;)
-      (loop for c = (peek source)
-            while (and c (char/= c #\Newline))
-            do (next source))
-      (next source)))
+(defun skip-between (source)
+  "Skip one blank character, or a comment of any length, between outermost forms.
+Where comments are wanted, the lines just before a form are kept; an empty line drops them."
+  (cond ((char= (peek source) #\;)
+         (if (source-comments source)
+             (push (read-comment source) (source-comment source))
+             (skip-comment source)))
+        ((and (char= (next source) #\Newline) (eql (peek source) #\Newline))
+         (setf (source-comment source) '()))))
+
+(defun skip-comment (source)
+  (loop for c = (peek source)
+        while (and c (char/= c #\Newline))
+        do (next source)))
+
+(defun read-comment (source)
+  "Read the comment that begins here and return its text, at most a line's length of it."
+  (string-trim "; "
+               (with-output-to-string (out)
+                 (loop for c = (peek source)
+                       for count from 0
+                       while (and c (char/= c #\Newline))
+                       do (when (< count 200) (write-char c out))
+                          (next source)))))
 
 (defun read-form (source depth)
   (declare (fixnum depth))
@@ -280,13 +303,17 @@ integers, ratios or doubles; 'X becomes (QUOTE X).  Signals a SYNTAX-ERROR."
     (canonical-name (nstring-upcase (subseq text 0 count)))))
 
 (defun read-all (source)
-  "Read all forms of SOURCE.  Returns their list and a table from each list in them to its line."
-  (let ((lines (make-hash-table :test #'eq)))
-    (setf (source-lines source) lines)
+  "Read all forms of SOURCE.  Returns their list, a table from each list in them to its line, and
+one from each outermost list to the lines of the comment just before it."
+  (let ((lines (make-hash-table :test #'eq))
+        (comments (make-hash-table :test #'eq)))
+    (setf (source-lines source) lines
+          (source-comments source) comments)
     (values (loop for form = (read-datum source)
                   until (eq form (end-of-data))
                   collect form)
-            lines)))
+            lines
+            comments)))
 
 ;;; Forms that come from the Lisp reader
 

@@ -1,0 +1,133 @@
+;;;; check.lisp -- what can't be meant in a rule base that is well formed.
+;;;;
+;;;; A misspelt predicate is no error in a chainer: under the closed-world assumption it is just
+;;;; never true.  So every sentence is followed from who derives it to who tests it.  This works on
+;;;; the forms, so that one rule's errors make no warnings in others.
+
+(in-package :supergrip-chainer)
+
+(defstruct (use (:constructor make-use (rule name place words surfaces form negated)))
+  "A sentence in a rule: the number and the NAME of the RULE, the PLACE in it (\"clause 2\"), its
+WORDS as strings, the texts of its SURFACES, sorted."
+  rule name place words surfaces form negated)
+
+(defun sentence-use (sentence form number name place)
+  "Return the use of SENTENCE, a list of words, in FORM, or NIL if it is not well formed."
+  (let* ((list (find-if #'consp sentence))
+         (names (remove-if-not #'namep sentence))
+         (words (loop for word in names
+                      unless (or (name= word "NO") (name= word "NOT"))
+                        collect (symbol-name word)))
+         (negations (count-if (lambda (word) (or (name= word "NO") (name= word "NOT"))) names)))
+    (and words
+         (make-use number name place words
+                   (sort (mapcar #'form-text list) #'string<)
+                   form (plusp negations)))))
+
+(defun rule-uses (form number)
+  "Return the sentences that the rule FORM tests, and those that it remembers."
+  (let ((name (and (namep (second form)) (symbol-name (second form)))))
+    (flet ((parts (key)
+             (rest (find-if (lambda (part) (part-p part key)) form)))
+           (proper (part) (and (consp part) (listp (cdr (last part))))))
+      (values (loop for clause in (parts "IF")
+                    for k from 1
+                    for use = (and (proper clause)
+                                   (sentence-use clause clause number name
+                                                 (format nil "clause ~d" k)))
+                    when use collect use)
+              (loop for action in (parts "THEN")
+                    for k from 1
+                    for use = (and (proper action) (name= (first action) "REMEMBER")
+                                   (sentence-use (rest action) action number name
+                                                 (format nil "action ~d" k)))
+                    when use collect use)))))
+
+(defun collect-uses (forms)
+  "Return all tests and all conclusions of the rules FORMS."
+  (let ((tests '()) (conclusions '()))
+    (loop for form in forms
+          for number from 0
+          when (part-p form "RULE")
+            do (multiple-value-bind (tested remembered) (rule-uses form number)
+                 (setf tests (append tests tested)
+                       conclusions (append conclusions remembered))))
+    (values tests conclusions)))
+
+(defmacro about-use ((use) &body body)
+  `(let ((*subject* (format nil "RULE ~a" (use-name ,use)))
+         (*place* (use-place ,use)))
+     ,@body))
+
+(defun words-text (words)
+  (format nil "~{~a~^ ~}" words))
+
+(defun derivers (words conclusions)
+  "Return those of CONCLUSIONS that derive WORDS."
+  (remove words conclusions :key #'use-words :test-not #'equal))
+
+(defun check-provided (test conclusions inputs)
+  "Warn if nothing provides what TEST tests.  Returns true if so."
+  (let ((provided (append (mapcar #'first inputs) (mapcar #'use-words conclusions))))
+    (unless (member (use-words test) provided :test #'equal)
+      (about-use (test)
+        (complain (use-form test)
+                  '(:warning "nothing provides ~a~a, so ~:[the rule can never fire~;this always ~
+                              holds~]")
+                  (words-text (use-words test))
+                  (suggestion (words-text (use-words test))
+                              (remove-duplicates (mapcar #'words-text provided) :test #'string=))
+                  (use-negated test)))
+      t)))
+
+(defun check-order (test conclusions inputs)
+  "Warn if TEST comes before a rule that derives what it tests."
+  (let* ((derivers (derivers (use-words test) conclusions))
+         (later (remove-if (lambda (use) (<= (use-rule use) (use-rule test))) derivers))
+         (earlier (remove-if-not (lambda (use) (< (use-rule use) (use-rule test))) derivers)))
+    (when later
+      (about-use (test)
+        (complain (use-form test)
+                  '(:warning "~:[~;the absence of ~]~a is tested here, but ~:[~;also ~]RULE ~a, ~
+                              which derives it, comes later; rules run in order, each once")
+                  (use-negated test) (words-text (use-words test))
+                  (or earlier (member (use-words test) inputs :key #'first :test #'equal))
+                  (use-name (first later)))))))
+
+(defun check-contradiction (tests)
+  "Warn if TESTS, those of one rule, hold a sentence and its negation."
+  (loop for (test . others) on tests
+        do (let ((contrary (find-if (lambda (other)
+                                      (and (equal (use-words test) (use-words other))
+                                           (equal (use-surfaces test) (use-surfaces other))
+                                           (not (eq (use-negated test) (use-negated other)))))
+                                    others)))
+             (when contrary
+               (about-use (contrary)
+                 (complain (use-form contrary)
+                           '(:warning "this contradicts ~a, so the rule can never fire")
+                           (use-place test)))))))
+
+(defun check-rules (forms inputs)
+  "Warn of what can't be meant in FORMS, the rules of a file in their order (see WITH-PROBLEMS).
+INPUTS are the predicates that the input provides, as in BUILD-RULEBASE."
+  (multiple-value-bind (tests conclusions) (collect-uses forms)
+    (dolist (test tests)
+      (or (check-provided test conclusions inputs)
+          (check-order test conclusions inputs)))
+    (loop for number from 0 below (length forms)
+          do (check-contradiction (remove number tests :key #'use-rule :test-not #'=)))
+    (check-unused tests conclusions inputs)))
+
+(defun check-unused (tests conclusions inputs)
+  "Warn of conclusions that no rule tests and that look like something known that one does."
+  (let ((tested (intersection (remove-duplicates (mapcar #'use-words tests) :test #'equal)
+                              (append (mapcar #'first inputs) (mapcar #'use-words conclusions))
+                              :test #'equal)))
+    (dolist (conclusion conclusions)
+      (unless (member (use-words conclusion) tested :test #'equal)
+        (let ((close (suggestion (words-text (use-words conclusion)) (mapcar #'words-text tested))))
+          (unless (string= close "")
+            (about-use (conclusion)
+              (complain (use-form conclusion) '(:warning "no rule tests ~a~a")
+                        (words-text (use-words conclusion)) close))))))))

@@ -1,0 +1,48 @@
+;;;; observe.lisp -- a run that is watched: for traces, steps, counts and explanations.
+;;;;
+;;;; RUN-RULES knows nothing of this, so plans pay nothing for it.
+
+(in-package :supergrip-chainer)
+
+(defun rule-bindings (rule memory)
+  "Return the bindings of RULE on MEMORY, packed, in their order."
+  (let ((count (funcall (rule-matcher rule) memory)))
+    (loop for i below count collect (aref (memory-bindings memory) i))))
+
+(defun prefix-bindings (rule count memory)
+  "Return the bindings that meet the first COUNT clauses of RULE on MEMORY."
+  (let ((matcher (compile-clauses (subseq (rule-clauses rule) 0 count) '())))
+    (setf (memory-found memory) 0)
+    (funcall matcher memory 0)
+    (loop for i below (memory-found memory) collect (aref (memory-bindings memory) i))))
+
+(defun run-observed (rulebase memory observer &key (end (length (rulebase-rules rulebase))))
+  "Run the first END rules of RULEBASE on MEMORY as RUN-RULES does, and call OBSERVER with
+
+  :RULE rule          before a rule is matched,
+  :BINDINGS rule list when its bindings are found,
+  :ACTION rule action binding, and a list of what the action added to the log, after each action,
+  :STOP stop          when an action ends the run.
+
+Returns the STOP, or NIL."
+  (loop for rule across (subseq (rulebase-rules rulebase) 0 end)
+        do (funcall observer :rule rule)
+           (let ((bindings (rule-bindings rule memory)))
+             (funcall observer :bindings rule bindings)
+             (dolist (action (rule-actions rule))
+               (dolist (binding bindings)
+                 (let* ((before (memory-log memory))
+                        (stop (funcall (action-function action) memory binding)))
+                   (funcall observer :action rule action binding
+                            (reverse (ldiff (memory-log memory) before)))
+                   (when stop
+                     (funcall observer :stop stop)
+                     (return-from run-observed stop)))))))
+  nil)
+
+(defun binding-text (rule binding)
+  "Return BINDING of RULE as \"S1 = Z1, S2 = Y2\".  Variables are bound in their order, so those
+that are not bound yet are the last."
+  (format nil "~{~a = ~a~^, ~}" (loop for name in (rule-variables rule)
+                                      for surface in (pack-names binding)
+                                      collect name collect surface)))

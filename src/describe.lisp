@@ -1,0 +1,107 @@
+;;;; describe.lisp -- rules and grasps in words.
+
+(in-package :supergrip)
+
+(defun find-named (name knowledge kind)
+  "Return the rule or grasp, as KIND says, NAME of KNOWLEDGE, or signal a NO-RULE-ERROR."
+  (let ((found (if (eq kind :rule)
+                   (find-rule (knowledge-rulebase knowledge) name)
+                   (find-grasp (knowledge-graspbase knowledge) name))))
+    (or found
+        (error 'no-rule-error :name name
+                              :known (if (eq kind :rule)
+                                         (mapcar #'rule-name (knowledge-rules knowledge))
+                                         (mapcar #'grasp-name (knowledge-grasps knowledge)))))))
+
+(defun write-comment (comment stream)
+  "Write COMMENT, the lines before a form: its mark, printed or reconstructed, and the reason."
+  (when comment
+    (format stream "~{~a~^ ~}~%" comment)))
+
+(defun sentence-text (words surfaces)
+  "Return a sentence in words: \"S1 and S2 are PARALLEL\", \"OBJECT HAS FREE CORNERS\"."
+  (if surfaces
+      (format nil "~{~a~#[~; and ~:;, ~]~} ~:[is~;are~] ~a" surfaces (rest surfaces) words)
+      words))
+
+(defun clause-text (clause)
+  (let* ((form (clause-form clause))
+         (text (sentence-text (predicate-text (clause-predicate clause)) (find-if #'consp form))))
+    (if (clause-negated clause) (format nil "nothing says that ~a" text) text)))
+
+(defun action-text (action)
+  (let ((operands (action-operands action))
+        (verb (action-verb action)))
+    (cond ((string= verb "REMEMBER")
+           (format nil "remember that ~a" (sentence-text (predicate-text (action-predicate action))
+                                                         (find-if #'consp operands))))
+          ((string= verb "TRY")
+           (format nil "try ~a~@[ with ~{~a~^, ~}~]" (first operands)
+                   (loop for element in (second operands)
+                         for slot across +slots+
+                         unless (name= element "?")
+                           collect (format nil "~a = ~a" slot element))))
+          ((string= verb "KEEP") "keep the best grasp, and stop")
+          ((string= verb "CANT") (format nil "stop: can't ~{~a~^ ~}" operands))
+          (t (form-text (action-form action))))))
+
+(defun testers (predicate knowledge)
+  "Return the names of the rules that test PREDICATE."
+  (loop for rule in (knowledge-rules knowledge)
+        when (find predicate (rule-clauses rule) :key #'clause-predicate)
+          collect (rule-name rule)))
+
+(defun sources (predicate knowledge)
+  "Return who provides PREDICATE: names of rules, and \"the input\"."
+  (append (and (predicate-given predicate) '("the input"))
+          (loop for rule in (knowledge-rules knowledge)
+                when (find predicate (rule-actions rule) :key #'action-predicate)
+                  collect (rule-name rule))))
+
+(defun describe-rule (name &key (knowledge *knowledge*) (stream *standard-output*))
+  "Write the rule NAME to STREAM: its form, in words, where it is from, who derives what it tests, and
+who tests what it derives.  Returns the rule."
+  (let ((rule (find-named (string name) knowledge :rule)))
+    (write-rule-form rule stream)
+    (write-comment (rule-comment rule) stream)
+    (format stream "In words: if ~{~a~^, and ~}, then ~{~a~^; then ~}.~%"
+            (mapcar #'clause-text (rule-clauses rule)) (mapcar #'action-text (rule-actions rule)))
+    (dolist (predicate (remove-duplicates (mapcar #'clause-predicate (rule-clauses rule))
+                                          :from-end t))
+      (format stream "~a comes from ~{~a~^, ~}.~%" (predicate-text predicate)
+              (or (sources predicate knowledge) '("nobody"))))
+    (dolist (predicate (remove nil (mapcar #'action-predicate (rule-actions rule))))
+      (format stream "~a is tested by ~{~a~^, ~}.~%" (predicate-text predicate)
+              (or (testers predicate knowledge) '("no rule"))))
+    rule))
+
+(defun write-rule-form (rule stream)
+  (destructuring-bind (rule-word name (if-word . clauses) (then-word . actions)) (rule-form rule)
+    (declare (ignore rule-word if-word then-word))
+    (format stream "(RULE ~a~%  (IF ~{~a~^~%      ~})~%  (THEN ~{~a~^~%        ~}))~%" name
+            (mapcar #'form-text clauses) (mapcar #'form-text actions))))
+
+(defun describe-grasp (name &key (knowledge *knowledge*) (stream *standard-output*))
+  "Write the grasp NAME to STREAM: its form, in words, where it is from, and which rules try it.
+Returns the grasp."
+  (let ((grasp (find-named (string name) knowledge :grasp)))
+    (write-grasp-form grasp stream)
+    (write-comment (grasp-comment grasp) stream)
+    (format stream "In words: ~{~a on ~a~^, ~}; the palm over ~a; ~{~a~^ ~} must be free.~%"
+            (loop with slots = (mapcar #'first (grasp-contacts grasp))
+                  for slot in (remove-duplicates slots :from-end t)
+                  collect (aref #("" "a finger" "two fingers" "three fingers") (count slot slots))
+                  collect (svref +slots+ slot))
+            (svref +slots+ (grasp-palm grasp))
+            (mapcar (lambda (slot) (svref +slots+ slot)) (grasp-used grasp)))
+    (format stream "It is tried by ~{~a~^, ~}.~%"
+            (or (loop for rule in (knowledge-rules knowledge)
+                      when (find grasp (rule-actions rule) :key #'action-target)
+                        collect (rule-name rule))
+                '("no rule")))
+    grasp))
+
+(defun write-grasp-form (grasp stream)
+  (format stream "(SETQ ~a~%  '(~{~a ~a~^~%    ~}))~%" (grasp-name grasp)
+          (loop for (key value) on (second (third (grasp-form grasp))) by #'cddr
+                collect key collect (form-text value))))

@@ -1,0 +1,128 @@
+;;;; edit.lisp -- changing knowledge while at work, and seeing what a change changes.
+;;;;
+;;;; Knowledge is immutable: an edit makes new knowledge of the old forms and the new one, and only
+;;;; if that is good does it come into force.  Plans made before keep theirs.
+
+(in-package :supergrip)
+
+(defun accept-edit (make)
+  "Put the knowledge that MAKE makes into force; if it is wrong, the former stays, and the
+KNOWLEDGE-ERROR says so."
+  (setf *knowledge*
+        (handler-bind ((knowledge-error
+                         (lambda (condition)
+                           (setf (knowledge-error-consequence condition)
+                                 "The knowledge in force stays as it was."))))
+          (accept-knowledge make))))
+
+(defun reload-knowledge (&key rules grasps)
+  "Read the files of the knowledge in force again, or the files RULES and GRASPS, and put what they
+hold into force.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
+  (flet ((file (given in-force)
+           (or given (data-file-path in-force))))
+    (accept-edit (lambda ()
+                   (build-knowledge
+                    (read-data-file (file rules (knowledge-rule-file *knowledge*)))
+                    (read-data-file (file grasps (knowledge-grasp-file *knowledge*))))))))
+
+(defun same-definition-p (form other)
+  "True if FORM and OTHER define the same name in the same way."
+  (and (consp form) (consp other) (consp (rest form)) (consp (rest other))
+       (name= (first form) (first other)) (name= (second form) (second other))))
+
+(defun place-of-new (form forms before)
+  "Return where in FORMS the new FORM goes: before the rule BEFORE, or, if that is NIL, a rule before
+the last one, which keeps the best; anything else at the end."
+  (cond (before
+         (or (position-if (lambda (other) (and (consp (rest other)) (name= (second other) before)))
+                          forms)
+             (error 'no-rule-error :name before
+                                   :known (mapcar #'rule-name (knowledge-rules *knowledge*)))))
+        ((part-named-p form "RULE") (max 0 (1- (length forms))))
+        (t (length forms))))
+
+(defun put-form (form forms before)
+  "Return FORMS with FORM in the place of the one of its name, or in a place of its own."
+  (if (find-if (lambda (other) (same-definition-p form other)) forms)
+      (substitute-if form (lambda (other) (same-definition-p form other)) forms)
+      (let ((place (place-of-new form forms before)))
+        (append (subseq forms 0 place) (list form) (nthcdr place forms)))))
+
+(defun edit (form &key before)
+  "Put FORM, (RULE ...), (SETQ grasp '(...)), (SETQ GRIPPER '(...)) or (DEFUN ...), into the knowledge
+in force, in place of the one of its name.  A new rule goes before the rule BEFORE, by default
+before the last; a new grasp goes last.  Returns the new knowledge.
+
+On a KNOWLEDGE-ERROR the former knowledge stays in force."
+  (let* ((form (canonical form))
+         (rule-p (part-named-p form "RULE")))
+    (flet ((edited (file)
+             (let ((copy (copy-data-file file)))
+               (setf (data-file-forms copy) (put-form form (data-file-forms file) before))
+               copy)))
+      (let ((rules (knowledge-rule-file *knowledge*))
+            (grasps (knowledge-grasp-file *knowledge*)))
+        (accept-edit (lambda ()
+                       (if rule-p
+                           (build-knowledge (edited rules) grasps)
+                           (build-knowledge rules (edited grasps)))))))))
+
+(defmacro rule (&whole form name &rest parts)
+  "Put the rule NAME into the knowledge in force, as EDIT does: (RULE name (IF ...) (THEN ...))."
+  (declare (ignore name parts))
+  `(edit ',(cons 'rule (rest form))))
+
+(defmacro supergrip-user::setq (&rest pairs)
+  "SETQ, but (SETQ name '(USED-SURFACES ...)) and (SETQ GRIPPER '(...)) edit the knowledge in force."
+  (destructuring-bind (&optional name value) (if (= (length pairs) 2) pairs '())
+    (if (and (part-named-p value "QUOTE")
+             (consp (second value))
+             (or (name= name "GRIPPER")
+                 (some (lambda (key) (name= key "USED-SURFACES")) (second value))))
+        `(edit '(setq ,name ,value))
+        `(cl:setq ,@pairs))))
+
+;;; What a change changes
+
+(defstruct difference
+  "A box for which two knowledge bases differ.  WHAT is :VERDICT, :GRASP (or its matching) or
+:QUALITY; OLD and NEW are the plans."
+  box what old new)
+
+(defun plan-difference (old new)
+  "Return what of the plans OLD and NEW differs, or NIL."
+  (cond ((not (eq (plan-verdict old) (plan-verdict new))) :verdict)
+        ((null (plan-best old)) nil)
+        ((not (same-choice-p old new)) :grasp)
+        ((> (abs (- (plan-quality old) (plan-quality new))) +tie+) :quality)))
+
+(defun compare-knowledge (old new boxes &key (gamma *gamma*) (stream *standard-output*))
+  "Plan each of BOXES with the knowledge OLD and with NEW; write what differs to STREAM (NIL: do not)
+and return a list of DIFFERENCEs, in the order of BOXES."
+  (let ((differences
+          (loop for box in boxes
+                for old-plan = (plan box :knowledge old :gamma gamma)
+                for new-plan = (plan box :knowledge new :gamma gamma)
+                for what = (plan-difference old-plan new-plan)
+                when what
+                  collect (make-difference :box (plan-box old-plan) :what what
+                                           :old old-plan :new new-plan))))
+    (when stream
+      (dolist (difference differences)
+        (write-difference difference stream))
+      (format stream "~d of ~d boxes differ: ~d in verdict, ~d in grasp, ~d in quality.~%"
+              (length differences) (length boxes)
+              (count :verdict differences :key #'difference-what)
+              (count :grasp differences :key #'difference-what)
+              (count :quality differences :key #'difference-what)))
+    differences))
+
+(defun write-difference (difference stream)
+  (flet ((text (plan)
+           (if (plan-best plan)
+               (format nil "~a Q=~a" (choice-text plan) (three-decimals (plan-quality plan)))
+               "can't")))
+    (format stream "~a: ~a, was ~a~%"
+            (or (box-name (difference-box difference))
+                (format nil "~{~a~^ x ~} cm" (mapcar #'figure (box-size (difference-box difference)))))
+            (text (difference-new difference)) (text (difference-old difference)))))

@@ -1,0 +1,192 @@
+;;;; trace.lisp -- watching a run: levels of trace, traced rules and grasps, steps, breaks, counts.
+
+(in-package :supergrip)
+
+(defvar *trace-level* 1
+  "What FORWARD-CHAIN prints: 0 nothing, 1 the paper's lines, 2 also which rules fire and with how
+many bindings, 3 also every action and the candidates that fail, 4 also what meets each clause.")
+
+(defvar *traced* '() "The names of the rules and grasps that are traced, strings.")
+(defvar *breaks* '() "The names of rules and the canonical facts on which a run stops.")
+
+(defun check-name (name)
+  "Return NAME as a string if it names a rule or a grasp, or signal a NO-RULE-ERROR."
+  (let ((name (string-upcase name)))
+    (if (or (find-rule (knowledge-rulebase *knowledge*) name)
+            (find-grasp (knowledge-graspbase *knowledge*) name))
+        name
+        (error 'no-rule-error :name name
+                              :known (append (mapcar #'rule-name (knowledge-rules *knowledge*))
+                                             (mapcar #'grasp-name (knowledge-grasps *knowledge*)))))))
+
+(defun trace-rule (&rest names)
+  "Trace the rules NAMES in full, whatever the level.  Returns the names of all that is traced."
+  (setf *traced* (union *traced* (mapcar #'check-name names) :test #'string=)))
+
+(defun trace-grasp (&rest names)
+  "Trace the grasps NAMES: show their candidates that fail.  Returns the names of all that is traced."
+  (apply #'trace-rule names))
+
+(defun untrace-rule (&rest names)
+  "Trace the rules NAMES no longer; without NAMES, nothing.  Returns the names of what still is."
+  (setf *traced* (and names (set-difference *traced* (mapcar #'string-upcase names)
+                                            :test #'string=))))
+
+(defun untrace-grasp (&rest names)
+  "Trace the grasps NAMES no longer; without NAMES, nothing.  Returns the names of what still is."
+  (apply #'untrace-rule names))
+
+(defun break-on (what)
+  "Stop a run of FORWARD-CHAIN in the debugger before the rule WHAT, a symbol or a string, or when the
+fact WHAT, as '(PARALLEL (Y2 Y1)), becomes known.  Returns all breaks."
+  (pushnew (if (consp what) (form-text (canonical what)) (check-name what)) *breaks*
+           :test #'string=)
+  *breaks*)
+
+(defun unbreak (&optional (what nil given))
+  "Take back (BREAK-ON WHAT); without WHAT, all.  Returns the breaks that are left."
+  (setf *breaks* (and given (remove (if (consp what) (form-text (canonical what)) (string-upcase what))
+                                    *breaks* :test #'string=))))
+
+;;; Stops
+
+(define-condition chain-break (condition)
+  ((text :initarg :text :reader chain-break-text))
+  (:report (lambda (condition stream) (write-string (chain-break-text condition) stream)))
+  (:documentation "A run stopped where it was asked to.  Restarts: NEXT-RULE goes on to the next
+rule, CONTINUE to the next break."))
+
+(defvar *stepping* nil "True while a run stops before every rule.")
+
+(defun pause (control &rest arguments)
+  "Stop in the debugger, saying what CONTROL and ARGUMENTS say."
+  (let ((condition (make-condition 'chain-break :text (apply #'format nil control arguments))))
+    (restart-case (progn (signal condition) (invoke-debugger condition))
+      (next-rule ()
+        :report "Go on to the next rule."
+        (setf *stepping* t))
+      (continue ()
+        :report "Go on to the next break."
+        (setf *stepping* nil)))))
+
+(defun fact-broken-p (event rulebase)
+  "True if the fact of EVENT is one to stop on, its faces in any order."
+  (multiple-value-bind (predicate packed) (event-fact event rulebase)
+    (some (lambda (text) (fact-matches-p text predicate packed)) *breaks*)))
+
+(defun fact-matches-p (text predicate packed)
+  (let* ((form (and (char= (char text 0) #\()
+                    (first (read-all (string-source text)))))
+         (faces (find-if #'consp form)))
+    (and form
+         (equal (mapcar #'symbol-name (remove-if #'consp form)) (predicate-words predicate))
+         (null (set-exclusive-or (mapcar #'symbol-name faces) (pack-names packed)
+                                 :test #'string=)))))
+
+(defun next-rule ()
+  "Invoke the restart NEXT-RULE: go on to the next rule and stop there."
+  (invoke-restart 'next-rule))
+
+;;; Lines
+
+(defun traced-p (name) (member name *traced* :test #'string=))
+
+(defun write-clause-matches (rule memory stream)
+  "Write what meets the clauses of RULE, one after the other."
+  (loop for clause in (rule-clauses rule)
+        for count from 1
+        for bindings = (prefix-bindings rule count memory)
+        do (format stream "    clause ~d, ~a: ~:[nothing~;~:*~{~a~^; ~}~]~%" count
+                   (form-text (clause-form clause))
+                   (and bindings
+                        (mapcar (lambda (binding)
+                                  (let ((text (binding-text rule binding)))
+                                    (if (string= text "") "holds" text)))
+                                bindings)))
+        while bindings))
+
+(defun write-failed-candidate (candidate plan stream)
+  (multiple-value-bind (step text) (candidate-failure candidate plan)
+    (format stream "  (~a FAILS AT ~a, MATCHING: (~{~a~^ ~})): ~a~%" (candidate-grasp candidate)
+            step (candidate-matching candidate) text)))
+
+(defun write-additions (events plan level stream)
+  "Write EVENTS, what an action added to the log."
+  (dolist (event events)
+    (cond ((not (candidate-p event))
+           (write-event event (plan-rulebase plan) stream)
+           (when (fact-broken-p event (plan-rulebase plan))
+             (pause "a fact to stop on is known")))
+          ((candidate-quality event) (write-candidate event stream))
+          ((or (>= level 3) (traced-p (candidate-grasp event)))
+           (write-failed-candidate event plan stream)))))
+
+(defun trace-observer (plan level stream)
+  "Return an observer of the run of PLAN, under way, that writes to STREAM what LEVEL asks for."
+  (let ((memory (plan-memory plan)))
+    (flet ((full-p (rule needed) (or (>= level needed) (traced-p (rule-name rule)))))
+      (lambda (what &rest arguments)
+        (ecase what
+          (:rule (let ((rule (first arguments)))
+                   (when (or *stepping* (member (rule-name rule) *breaks* :test #'string=))
+                     (pause "before ~a" (form-text (rule-form rule))))
+                   (when (full-p rule 4)
+                     (format stream "  RULE ~a~%" (rule-name rule))
+                     (write-clause-matches rule memory stream))))
+          (:bindings (destructuring-bind (rule bindings) arguments
+                       (when (full-p rule 2)
+                         (format stream "  RULE ~a ~:[does not fire~;fires: ~:*~d binding~:p~]~%"
+                                 (rule-name rule) (and bindings (length bindings))))))
+          (:action (destructuring-bind (rule action binding added) arguments
+                     (when (full-p rule 3)
+                       (format stream "    ~a~@[ with ~a~]~%" (form-text (action-form action))
+                               (let ((text (binding-text rule binding)))
+                                 (and (plusp (length text)) text))))
+                     (write-additions added plan level stream)))
+          (:stop nil))))))
+
+(defun observed-plan (box knowledge gamma make-observer)
+  "Return the plan for BOX; its run is watched by what MAKE-OBSERVER returns for the unfinished plan."
+  (multiple-value-bind (attempt memory) (start-plan box knowledge gamma)
+    (let* ((unfinished (finish-plan attempt memory knowledge nil))
+           (stop (run-observed (knowledge-rulebase knowledge) memory
+                               (funcall make-observer unfinished))))
+      (finish-plan attempt memory knowledge stop))))
+
+(defun traced-plan (box knowledge gamma level step stream)
+  "Return the plan for BOX, writing to STREAM what LEVEL and the traced names ask for as it comes."
+  (let* ((*stepping* step)
+         (plan (observed-plan box knowledge gamma
+                              (lambda (plan) (trace-observer plan level stream)))))
+    (write-verdict plan stream)
+    (format stream "--END--~%")
+    plan))
+
+;;; Counts
+
+(defun rule-counts (&optional (plan *plan*))
+  "Print and return how often each rule of PLAN was matched and fired: a list of (NAME MATCHES FIRINGS
+FACTS).  MATCHES counts the bindings that met its first clause, its first two, and so on; FIRINGS
+its bindings; FACTS what it added."
+  (let* ((plan (need-plan plan))
+         (counts '()))
+    (observed-plan (plan-box plan) (plan-knowledge plan) (plan-gamma plan)
+                   (lambda (unfinished)
+                     (lambda (what &rest arguments)
+                       (ecase what
+                         (:rule (push (list (rule-name (first arguments))
+                                            (count-matches (first arguments)
+                                                           (plan-memory unfinished))
+                                            0 0)
+                                      counts))
+                         (:bindings (setf (third (first counts)) (length (second arguments))))
+                         (:action (incf (fourth (first counts))
+                                        (count-if #'integerp (fourth arguments))))
+                         (:stop nil)))))
+    (format t "~12a ~8@a ~8@a ~8@a~%" "rule" "matches" "firings" "facts")
+    (format t "~:{~12a ~8d ~8d ~8d~%~}" (reverse counts))
+    (reverse counts)))
+
+(defun count-matches (rule memory)
+  (loop for count from 1 to (length (rule-clauses rule))
+        sum (length (prefix-bindings rule count memory))))

@@ -1,0 +1,165 @@
+;;;; whynot.lisp -- why a grasp was not chosen.
+
+(in-package :supergrip)
+
+(defstruct (not-chosen (:include explanation))
+  "Why GRASP, in MATCHING or in general (NIL), is not the best of a plan.  KIND is one of
+  :CHOSEN       it is the best
+  :NO-MATCHING  FACES are no proper rotation
+  :CONSTRAINED  CANDIDATES is empty: it would use the constrained FACES
+  :EQUIVALENT   the same grasp was tried in the matching of the first of CANDIDATES
+  :NOT-TRIED    no rule tried it: REFUSALS says why each that could did not; CANDIDATES is what
+                would have come of it
+  :FAILED       the first of CANDIDATES failed, OUTCOME and TEXT say at what
+  :LOWER        the first of CANDIDATES is possible, but MARGIN below the best
+TEXT is a sentence, PLAN the plan."
+  plan kind grasp matching (faces '()) (candidates '()) (refusals '()) outcome (text "") margin)
+
+(defun trying-rules (grasp plan)
+  "Return the rules of PLAN that may try GRASP."
+  (loop for rule across (rulebase-rules (plan-rulebase plan))
+        when (find grasp (rule-actions rule) :key #'action-target)
+          collect rule))
+
+(defun parse-matching (faces)
+  "Return the matching of FACES, six names, or NIL."
+  (let ((indices (loop for face in faces collect (and (namep face) (surface-index face)))))
+    (find-if (lambda (matching) (equal indices (coerce (matching-faces matching) 'list)))
+             +matchings+)))
+
+(defun candidate-in (plan grasp matching)
+  "Return the candidate of PLAN with GRASP in MATCHING, or NIL."
+  (find-if (lambda (candidate) (and (eq grasp (%candidate-grasp candidate))
+                                    (eq matching (%candidate-matching candidate))))
+           (plan-candidates plan)))
+
+(defun candidates-of (plan grasp)
+  (remove grasp (plan-candidates plan) :key #'%candidate-grasp :test-not #'eq))
+
+(defun judge-candidate (candidate plan)
+  "Return the NOT-CHOSEN of CANDIDATE, which was tried in PLAN."
+  (let ((grasp (%candidate-grasp candidate))
+        (matching (%candidate-matching candidate)))
+    (cond ((eq candidate (plan-best plan))
+           (make-not-chosen :kind :chosen :grasp grasp :matching matching
+                            :candidates (list candidate) :text "it is the best grasp"))
+          ((eq (candidate-outcome candidate) :possible) (lower-quality candidate plan))
+          (t (multiple-value-bind (outcome text) (candidate-failure candidate plan)
+               (make-not-chosen :kind :failed :grasp grasp :matching matching :outcome outcome
+                                :candidates (list candidate) :text text))))))
+
+(defun lower-quality (candidate plan)
+  (let* ((best (plan-best plan))
+         (margin (and best (- (candidate-quality best) (candidate-quality candidate)))))
+    (make-not-chosen
+     :kind :lower :grasp (%candidate-grasp candidate) :matching (%candidate-matching candidate)
+     :candidates (list candidate) :margin margin
+     :text (cond ((null best) (format nil "it is possible, but ~a" (plan-reason plan)))
+                 ((<= margin +tie+)
+                  (format nil "its Q is ~a, as good as that of the best, which was tried before it"
+                          (three-decimals (candidate-quality candidate))))
+                 (t (format nil "its Q is ~a, ~a below ~a (~{~a~^ ~})"
+                            (three-decimals (candidate-quality candidate)) (figure margin)
+                            (candidate-grasp best) (candidate-matching best)))))))
+
+(defun used-and-constrained (grasp matching plan)
+  "Return the names of the constrained faces that GRASP would use in MATCHING."
+  (loop for slot in (grasp-used grasp)
+        for face = (svref (matching-faces matching) slot)
+        when (logbitp face (%box-constrained (plan-box plan)))
+          collect (surface-name face)))
+
+(defun refuse-matching (grasp matching plan)
+  "Return why GRASP in MATCHING is not the best of PLAN."
+  (let ((candidate (candidate-in plan grasp matching))
+        (constrained (used-and-constrained grasp matching plan))
+        (same (find-if (lambda (other)
+                         (logbitp (matching-index (%candidate-matching other))
+                                  (aref (grasp-same grasp) (matching-index matching))))
+                       (candidates-of plan grasp))))
+    (cond (candidate (judge-candidate candidate plan))
+          (constrained
+           (make-not-chosen :kind :constrained :grasp grasp :matching matching :faces constrained
+                            :text (format nil "it would use ~{~a~^, ~}, constrained" constrained)))
+          (same
+           (make-not-chosen :kind :equivalent :grasp grasp :matching matching
+                            :candidates (list same)
+                            :text (format nil "the same grasp was tried as (~{~a~^ ~})"
+                                          (candidate-matching same))))
+          (t (not-tried grasp matching plan)))))
+
+(defun would-be (grasp matching plan)
+  "Return the candidates that trying GRASP, in MATCHING or in all, would have given, the best first."
+  (let* ((alone (try-grasp (grasp-name grasp) (plan-box plan) :knowledge (plan-knowledge plan)
+                                                              :gamma (plan-gamma plan)))
+         (same (and matching (aref (grasp-same grasp) (matching-index matching)))))
+    (remove-if-not (lambda (candidate)
+                     (or (null same)
+                         (logbitp (matching-index (%candidate-matching candidate)) same)))
+                   (append (plan-possible alone) (plan-rejected alone)))))
+
+(defun not-tried (grasp matching plan)
+  "Return why no rule of PLAN tried GRASP in MATCHING, or at all."
+  (let ((rules (trying-rules grasp plan))
+        (candidates (would-be grasp matching plan)))
+    (make-not-chosen
+     :plan plan :kind (if candidates :not-tried :constrained) :grasp grasp :matching matching
+     :candidates candidates
+     :refusals (loop for rule in rules collect (refuse-rule rule plan))
+     :text (cond ((null candidates) "in every matching it would use a constrained face")
+                 ((null rules) "no rule tries it")
+                 (matching "no rule tried it in this matching")
+                 (t "no rule tried it")))))
+
+(defun refuse-grasp (grasp plan)
+  "Return why GRASP is not the best of PLAN: about its best candidate, or its nearest miss."
+  (let* ((candidates (candidates-of plan grasp))
+         (best (find grasp (plan-possible plan) :key #'%candidate-grasp))
+         (miss (and candidates (not best) (nearest-of candidates plan))))
+    (cond ((and (plan-best plan) (eq grasp (%candidate-grasp (plan-best plan))))
+           (judge-candidate (plan-best plan) plan))
+          ((or best miss) (judge-candidate (or best miss) plan))
+          (t (not-tried grasp nil plan)))))
+
+(defun explain-refusal (name &optional matching (plan *plan*))
+  "Return why the rule NAME did not fire in PLAN, a REFUSAL, or why the grasp NAME, in MATCHING (six
+faces) if that is given, was not chosen, a NOT-CHOSEN."
+  (let* ((plan (need-plan plan))
+         (knowledge (plan-knowledge plan))
+         (rule (find-rule (knowledge-rulebase knowledge) name))
+         (grasp (find-grasp (knowledge-graspbase knowledge) name)))
+    (cond ((and rule (null matching)) (refuse-rule rule plan))
+          ((null grasp)
+           (error 'no-rule-error :name name
+                                 :known (append (mapcar #'rule-name (knowledge-rules knowledge))
+                                                (mapcar #'grasp-name (knowledge-grasps knowledge)))))
+          ((null matching) (refuse-grasp grasp plan))
+          ((parse-matching matching) (refuse-matching grasp (parse-matching matching) plan))
+          (t (make-not-chosen :kind :no-matching :grasp grasp :faces matching
+                              :text (format nil "(~{~a~^ ~}) is no matching: N O A must be a proper ~
+                                                 rotation of X Y Z, N1 opposite N2, and so on"
+                                            matching))))))
+
+(defun why-not (name &optional matching (plan *plan*))
+  "Print and return why the rule NAME did not fire in PLAN, or why the grasp NAME was not chosen, in
+MATCHING, six faces, if that is given.  NAME is a symbol or a string."
+  (answer (explain-refusal (string name) matching plan)))
+
+(defmethod write-answer ((answer not-chosen) stream)
+  (format stream "~a~@[ (~{~a~^ ~})~]: ~a.~%" (grasp-name (not-chosen-grasp answer))
+          (and (not-chosen-matching answer) (matching-names (not-chosen-matching answer)))
+          (not-chosen-text answer))
+  (when (eq (not-chosen-kind answer) :not-tried)
+    (dolist (refusal (not-chosen-refusals answer))
+      (write-answer refusal stream))
+    (let ((candidates (not-chosen-candidates answer)) (plan (not-chosen-plan answer)))
+      (write-would-be (or (find :possible candidates :key #'candidate-outcome)
+                          (nearest-of candidates plan))
+                      plan stream))))
+
+(defun write-would-be (candidate plan stream)
+  (if (eq (candidate-outcome candidate) :possible)
+      (format stream "If tried it would be possible, with Q=~a in (~{~a~^ ~}).~%"
+              (three-decimals (candidate-quality candidate)) (candidate-matching candidate))
+      (format stream "If tried it would fail; nearest in (~{~a~^ ~}): ~a.~%"
+              (candidate-matching candidate) (nth-value 1 (candidate-failure candidate plan)))))

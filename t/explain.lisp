@@ -1,0 +1,422 @@
+;;;; explain.lisp -- explanations, traces, breaks and edits.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defmacro printed (&body body)
+  "Return what BODY prints, as a list of lines."
+  `(lines-of (with-output-to-string (*standard-output*) ,@body)))
+
+(defun pencil-plan () (supergrip::plan (paper-box)))
+
+(defun plan-of (size u constrained &key (weight 0.05d0) (force '(1 1 1 0.5d0 0.5d0 0.5d0))
+                                     (velocity '(0 0 0 0 0 0)))
+  (supergrip::plan `((size ,@size) (weight ,weight) (u ,u) (v 0.2d0) (constrained ,@constrained)
+                     (force-needed ,force) (velocity-needed ,velocity))))
+
+;;; HOW
+
+(test how-tells-the-tree-down-to-the-box
+  (is (equal '("(PARALLEL (Y2 Y1)): RULE SURFACES1 with S1 = Y2, S2 = Y1"
+               "  (OPPOSED (Y2 Y1)): input, opposite faces of the box"
+               "  not (CONSTRAINED (Y2)): assumed, nothing had said so when SURFACES1 was tried"
+               "  not (CONSTRAINED (Y1)): assumed, nothing had said so when SURFACES1 was tried")
+             (printed (supergrip:how '(parallel (y1 y2)) (pencil-plan)))))
+  (is (equal '("(CONSTRAINED (X1)): input, the box says so")
+             (printed (supergrip:how '(constrained (x1)) (pencil-plan)))))
+  (is (equal '("(LARGE (X2 X1)): input, they are 12 cm apart, no less than DIST-PINCH, 12")
+             (printed (supergrip:how '(large (x1 x2)) (pencil-plan))))))
+
+(test how-tells-why-a-fact-is-not-known
+  (is (equal '("(WIDE (Y2 Y1)) is not known."
+               "RULE SURFACES4 did not fire: clause 2, (LARGE (S1 S2)), fails for all bindings before it."
+               "  Tried: S1 = Y2, S2 = Y1; S1 = Y1, S2 = Y2"
+               "  LARGE is an input, and the box does not give it for these.")
+             (printed (supergrip:how '(wide (y2 y1)) (pencil-plan)))))
+  (is (equal '("(SLIPPERY) is not known." "It is an input, which this box does not give.")
+             (printed (supergrip:how '(slippery) (pencil-plan))))))
+
+(test questions-about-nothing-are-refused
+  (loop for (form report) in
+        '(((paralel (y2 y1)) "(PARALEL (Y2 Y1)) is no fact that could be known: nothing speaks of PARALEL (did you mean PARALLEL?)")
+          ((parallel (y2)) "(PARALLEL (Y2)) is no fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2")
+          ((parallel (y2 y3)) "(PARALLEL (Y2 Y3)) is no fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2"))
+        do (is (equal report (handler-case (supergrip:how form (pencil-plan))
+                               (supergrip:no-fact-error (condition) (princ-to-string condition))))))
+  (is (search "there is no rule or grasp GRIP12 (did you mean GRIP1"
+              (handler-case (supergrip:why-not 'grip12 nil (pencil-plan))
+                (supergrip:no-rule-error (condition) (princ-to-string condition)))))
+  (let ((supergrip:*plan* nil))
+    (signals supergrip:no-plan-error (supergrip:how '(slippery)))
+    (signals supergrip:no-plan-error (supergrip:why-not 'grip1))
+    (signals supergrip:no-plan-error (supergrip:explain-best))))
+
+;;; WHY-NOT, rules
+
+(test why-not-names-the-clause-and-what-blocks-a-negation
+  (is (equal '("RULE GRIP4 did not fire: clause 1, (OBJECT HAS NO PARALLEL SURFACES), fails."
+               "  In its way stands"
+               "    (OBJECT HAS PARALLEL SURFACES): RULE SURFACES1 with S1 = Y2, S2 = Y1"
+               "      (OPPOSED (Y2 Y1)): input, opposite faces of the box"
+               "      not (CONSTRAINED (Y2)): assumed, nothing had said so when SURFACES1 was tried"
+               "      not (CONSTRAINED (Y1)): assumed, nothing had said so when SURFACES1 was tried")
+             (printed (supergrip:why-not 'grip4 nil (pencil-plan)))))
+  (is (equal '("RULE GRIP10 did not fire: clause 1, (WIDE (S1 S2)), fails."
+               "  No rule before said WIDE.")
+             (printed (supergrip:why-not 'grip10 nil (pencil-plan)))))
+  (is (equal '("RULE GRIP9 did fire, with S1 = Y2, S2 = Y1; S1 = Y1, S2 = Y2.")
+             (printed (supergrip:why-not 'grip9 nil (pencil-plan))))))
+
+(test why-not-knows-what-was-not-reached
+  (is (equal '("RULE SURFACES1 was not reached: RULE GRIP2 ended the run, CANT GRASP TOO SLIPPERY TO PICK UP.")
+             (printed (supergrip:why-not 'surfaces1 nil (plan-of '(8 5 3) 0.05d0 '(z2))))))
+  (is (equal '("RULE GRIP7 was not reached: RULE GRIP6 ended the run, KEEP BEST.")
+             (printed (supergrip:why-not 'grip7 nil (plan-of '(4 4 6) 1.5d0 '(z2 z1 x2 y2)))))))
+
+;;; WHY-NOT, grasps: each of the lower level's reasons
+
+(defun why-not-line (plan grasp &optional matching)
+  (first (printed (supergrip:why-not grasp matching plan))))
+
+(test why-not-tells-each-lower-level-reason
+  (let ((pencil (pencil-plan)))
+    (loop for (plan grasp matching line) in
+          `((,pencil pinch-2-parallel nil "PINCH-2-PARALLEL: no rule tried it.")
+            (,pencil pinch-3-parallel (z1 z2 x1 x2 y1 y2)
+             "PINCH-3-PARALLEL (Z1 Z2 X1 X2 Y1 Y2): it would use Z2, constrained.")
+            (,pencil pinch-3-parallel (y1 y2 x1 x2 z2 z1)
+             "PINCH-3-PARALLEL (Y1 Y2 X1 X2 Z2 Z1): the same grasp was tried as (Y2 Y1 X2 X1 Z2 Z1).")
+            (,pencil pinch-3-parallel (y1 y2 x2 x1 z2 z1)
+             "PINCH-3-PARALLEL: (Y1 Y2 X2 X1 Z2 Z1) is no matching: N O A must be a proper rotation of X Y Z, N1 opposite N2, and so on.")
+            (,pencil pinch-3-u-shape nil
+             "PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1): its Q is 0.770, 0.08965 below PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1).")
+            (,pencil pinch-3-parallel nil
+             "PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1): it is the best grasp.")
+            (,(plan-of '(30 20 30) 0.5d0 '(z2)) pinch-3-u-shape nil
+             "PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1): the distance of Y2 and Y1 is 20, must be < 12 (DIST-PINCH).")
+            (,(plan-of '(20 10 5) 0.8d0 '(z2) :weight 11) pinch-3-parallel nil
+             "PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1): it can't hold the weight: the load along Z is 11, the grasp bears 1.6.")
+            (,(plan-of '(4 4 4) 0.6d0 '(z2 y2 x2)) pinch-2-adjacent nil
+             "PINCH-2-ADJACENT (Z1 Z2 X1 X2 Y1 Y2): u is 0.6, must be > 1.")
+            (,(plan-of '(6 3 2) 0.9d0 '(x2 y2 z2)) pinch-3-corner nil
+             "PINCH-3-CORNER (Z1 Z2 X1 X2 Y1 Y2): open: the contacts don't close on this shape; needs u > 1.342, has 0.9."))
+          do (is (equal line (why-not-line plan grasp matching)) "~a: ~a" grasp
+                 (why-not-line plan grasp matching)))))
+
+(test why-not-tells-what-would-have-come-of-it
+  (let ((lines (printed (supergrip:why-not 'pinch-2-parallel nil (pencil-plan)))))
+    (is (equal "If tried it would be possible, with Q=0.325 in (Y2 Y1 X2 X1 Z2 Z1)."
+               (first (last lines))))
+    (is (equal "RULE GRIP7 did not fire: clause 2, (NARROW (S3 S4)), fails for all bindings before it."
+               (second lines)))))
+
+;;; EXPLAIN-BEST, descriptions
+
+(test explain-best-tells-what-limits-and-what-would-change
+  (is (equal '("PINCH-3-PARALLEL: two fingers on Y2, a finger on Y1; the palm over Z1, coming from above."
+               "Force is limited about Y: the grasp exerts 1.095 beyond the weight's load, the task needs 1; radius 1.095."
+               "Velocity is limited about Y: the grasp moves with 0.5, the task needs 0.8; radius 0.625."
+               "Next is PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1), with Q 0.08965 less."
+               "The choice would change if one of these were different:")
+             (subseq (printed (supergrip:explain-best (pencil-plan))) 0 5)))
+  (is (search "The box can't be grasped: CANT GRASP TOO SLIPPERY TO PICK UP."
+              (first (printed (supergrip:explain-best (plan-of '(8 5 3) 0.05d0 '(z2))))))))
+
+(test descriptions-tell-form-words-mark-and-use
+  (let ((lines (printed (supergrip:describe-rule 'surfaces4))))
+    (is (equal "(RULE SURFACES4" (first lines)))
+    (is (search "Reconstructed: the fourth rule of its group." (format nil "~{~a ~}" lines)))
+    (is (find "In words: if S1 and S2 are PARALLEL, and S1 and S2 are LARGE, then remember that S1 and S2 are WIDE."
+              lines :test #'string=))
+    (is (find "PARALLEL comes from SURFACES1." lines :test #'string=))
+    (is (find "WIDE is tested by GRIP9, GRIP10." lines :test #'string=)))
+  (let ((lines (printed (supergrip:describe-grasp 'pinch-2-parallel))))
+    (is (find-if (lambda (line) (search "Repaired:" line)) lines))
+    (is (find "In words: a finger on N1, a finger on N2; the palm over A2; N1 N2 A2 must be free."
+              lines :test #'string=))
+    (is (find "It is tried by GRIP7." lines :test #'string=)))
+  (signals supergrip:no-rule-error (supergrip:describe-grasp 'pinch-9)))
+
+(test every-rule-and-grasp-has-its-mark
+  (dolist (rule (supergrip:knowledge-rules supergrip:*knowledge*))
+    (is (member (subseq (first (supergrip-chainer:rule-comment rule)) 0 5) '("Print" "Recon")
+                :test #'string=)))
+  (dolist (grasp (supergrip:knowledge-grasps supergrip:*knowledge*))
+    (is (member (subseq (first (supergrip::grasp-comment grasp)) 0 5) '("Repai" "Recon")
+                :test #'string=))))
+
+;;; Properties
+
+(defun plan-facts (plan)
+  "Return the facts at the end of PLAN as lists, as HOW takes them."
+  (loop for assertion in (supergrip:plan-assertions plan)
+        for words = (mapcar #'make-symbol (remove-if #'consp assertion))
+        for lists = (remove-if-not #'consp assertion)
+        append (if lists
+                   (loop for list in lists
+                         collect (append words (list (mapcar #'make-symbol list))))
+                   (list words))))
+
+(defun leaf-facts (derivation)
+  (if (supergrip:derivation-rule derivation)
+      (loop for part in (supergrip:derivation-parts derivation)
+            when (supergrip:derivation-p part) append (leaf-facts part))
+      (list derivation)))
+
+(defun tree-rules (derivation)
+  (when (supergrip:derivation-rule derivation)
+    (cons (supergrip:derivation-rule derivation)
+          (loop for part in (supergrip:derivation-parts derivation)
+                when (supergrip:derivation-p part) append (tree-rules part)))))
+
+(defun how-fault (box)
+  "Return a fact of the plan for BOX that the rules of its tree do not derive from its leaves."
+  (let* ((plan (supergrip::plan box))
+         (rulebase (supergrip::plan-rulebase plan)))
+    (dolist (fact (plan-facts plan))
+      (let ((tree (supergrip:explain-fact fact plan))
+            (memory (supergrip-chainer:make-memory
+                     (supergrip-chainer:rulebase-predicates rulebase)
+                     (supergrip::make-attempt (supergrip:plan-box plan)
+                                              (supergrip::knowledge-graspbase
+                                               (supergrip:plan-knowledge plan))
+                                              0.5d0))))
+        (dolist (leaf (leaf-facts tree))
+          (unless (supergrip-chainer:predicate-given (supergrip:derivation-predicate leaf))
+            (return-from how-fault (list fact "a leaf that is no input")))
+          (supergrip-chainer:remember memory (supergrip:derivation-predicate leaf)
+                                      (supergrip:derivation-packed leaf)))
+        (dolist (rule (sort (remove-duplicates (tree-rules tree)) #'<
+                            :key #'supergrip-chainer:rule-index))
+          (dolist (binding (supergrip-chainer:rule-bindings rule memory))
+            (dolist (action (supergrip-chainer:rule-actions rule))
+              (when (supergrip-chainer:action-predicate action)
+                (funcall (supergrip-chainer:action-function action) memory binding)))))
+        (unless (supergrip-chainer:recall memory (supergrip:derivation-predicate tree)
+                                          (supergrip:derivation-packed tree))
+          (return-from how-fault (list fact "not derived from its leaves")))))))
+
+(test every-fact-follows-from-the-leaves-of-its-tree
+  (is (null (first-fault #'how-fault (random-boxes 2000 11)))))
+
+(test every-grasp-not-chosen-has-a-reason
+  (is (null (first-fault
+             (lambda (box)
+               (let ((plan (supergrip::plan box)))
+                 (dolist (grasp (supergrip:knowledge-grasps supergrip:*knowledge*))
+                   (let* ((name (supergrip::grasp-name grasp))
+                          (answer (supergrip:explain-refusal name nil plan)))
+                     (when (or (string= "" (supergrip:not-chosen-text answer))
+                               (not (eq (eq :chosen (supergrip:not-chosen-kind answer))
+                                        (equal name (supergrip:plan-grasp plan))))
+                               (string= "" (with-output-to-string (out)
+                                             (supergrip:write-answer answer out))))
+                       (return name))))))
+             (random-boxes 2000 12)))))
+
+(test what-must-change-does-change-the-choice
+  (is (null (first-fault
+             (lambda (box)
+               (let ((plan (supergrip::plan box)))
+                 (dolist (change (supergrip:advice-changes (supergrip:advise plan)))
+                   (when (supergrip::same-choice-p
+                          plan (supergrip::plan (supergrip:change-box change)))
+                     (return (supergrip:change-what change))))))
+             (random-boxes 2000 13)))))
+
+;;; Traces, breaks, counts
+
+(test traces-have-levels
+  (flet ((lines (level)
+           (length (printed (supergrip:forward-chain :box (paper-box) :trace level)))))
+    (is (= 0 (lines 0)))
+    (is (= 20 (lines 1)))
+    (is (< 20 (lines 2) (lines 3) (lines 4))))
+  (let ((lines (printed (supergrip:forward-chain :box (paper-box) :trace 4))))
+    (is (equal (lines-of (file-text "t/pencil-session.txt"))
+               (remove-if (lambda (line) (char= (char line 0) #\Space)) lines))
+        "a trace only adds to the paper's lines")))
+
+(test rules-and-grasps-are-traced-by-name
+  (unwind-protect
+       (progn
+         (supergrip:trace-rule 'grip4)
+         (let ((lines (printed (supergrip:forward-chain :box (paper-box)))))
+           (is (= 23 (length lines)))
+           (is (find "    clause 1, (OBJECT HAS NO PARALLEL SURFACES): nothing" lines
+                     :test #'string=)))
+         (supergrip:untrace-rule 'grip4)
+         (supergrip:trace-grasp 'pinch-3-u-shape)
+         (is (find-if (lambda (line) (search "(PINCH-3-U-SHAPE FAILS AT CONDITIONS" line))
+                      (printed (supergrip:forward-chain
+                                :box (supergrip:plan-box (plan-of '(30 20 30) 0.5d0 '(z2)))))))
+         (signals supergrip:no-rule-error (supergrip:trace-rule 'grip99)))
+    (supergrip:untrace-rule)))
+
+(defun stops (function)
+  "Return where FUNCTION stops, going on to the next break each time."
+  (let ((stops '()))
+    (handler-bind ((supergrip:chain-break
+                     (lambda (condition)
+                       (push (princ-to-string condition) stops)
+                       (invoke-restart 'continue))))
+      (funcall function))
+    (nreverse stops)))
+
+(test a-run-stops-where-it-is-told-to
+  (unwind-protect
+       (flet ((go-on () (printed (supergrip:forward-chain :box (paper-box)))))
+         (supergrip:break-on 'grip8)
+         (is (= 1 (length (stops #'go-on))))
+         (is (search "before (RULE GRIP8" (first (stops #'go-on))))
+         (supergrip:unbreak)
+         (supergrip:break-on '(corner (x2 z1 y1)))
+         (is (equal '("a fact to stop on is known") (stops #'go-on)))
+         (supergrip:unbreak '(corner (x2 z1 y1)))
+         (is (null (stops #'go-on))))
+    (supergrip:unbreak)))
+
+(test steps-go-from-rule-to-rule
+  (let ((count 0))
+    (handler-bind ((supergrip:chain-break (lambda (condition)
+                                            (declare (ignore condition))
+                                            (incf count)
+                                            (invoke-restart 'supergrip:next-rule))))
+      (printed (supergrip:forward-chain :box (paper-box) :step t)))
+    (is (= 15 count))))
+
+(test counts-are-of-matches-firings-and-facts
+  (let ((counts nil))
+    (printed (setf counts (supergrip:rule-counts (pencil-plan))))
+    (is (equal '("GRIP8" 6 4 0) (assoc "GRIP8" counts :test #'string=)))
+    (is (equal '("SURFACES2" 50 10 6) (assoc "SURFACES2" counts :test #'string=)))
+    (is (= 15 (length counts)))))
+
+(test a-watched-run-is-the-same-plan
+  (is (null (first-fault
+             (lambda (box)
+               (not (equal (plan-figures (supergrip::plan box))
+                           (plan-figures (supergrip::observed-plan
+                                          box supergrip:*knowledge* 0.5d0
+                                          (constantly (constantly nil)))))))
+             (random-boxes 2000 14)))))
+
+;;; Editing
+
+(defmacro with-knowledge-restored (&body body)
+  `(let ((supergrip:*knowledge* supergrip:*knowledge*))
+     ,@body))
+
+(test an-edit-comes-into-force-at-once
+  (with-knowledge-restored
+    (let ((before (pencil-plan)))
+      (supergrip:edit '(rule grip9 (if (parallel (s1 s2)) (large (s1 s2)))
+                        (then (try pinch-3-parallel (s1 s2 ? ? ? ?)))))
+      (is (equal "PINCH-3-U-SHAPE" (supergrip:plan-grasp (pencil-plan))))
+      (is (= 15 (length (supergrip:knowledge-rules supergrip:*knowledge*))))
+      (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp before)))
+      (is (= 6 (length (supergrip:plan-candidates before))) "plans made before keep theirs")))
+  (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp (pencil-plan)))))
+
+(test a-new-rule-goes-before-the-last
+  (with-knowledge-restored
+    (supergrip:rule grip12 (if (parallel (s1 s2))) (then (try pinch-2-parallel (s1 s2 ? ? ? ?))))
+    (is (equal '("GRIP10" "GRIP12" "GRIP11")
+               (mapcar #'supergrip-chainer:rule-name
+                       (last (supergrip:knowledge-rules supergrip:*knowledge*) 3))))
+    (is (= 8 (length (supergrip:plan-candidates (pencil-plan)))))
+    (supergrip:edit '(rule early (if (slippery)) (then (cant do))) :before 'grip2)
+    (is (equal "EARLY" (supergrip-chainer:rule-name
+                        (second (supergrip:knowledge-rules supergrip:*knowledge*)))))))
+
+(test a-broken-edit-leaves-the-last-good-knowledge
+  (let ((before supergrip:*knowledge*))
+    (let ((report (handler-case
+                      (supergrip:edit '(rule grip9 (if (parallel (s1))) (then (frob))))
+                    (supergrip:knowledge-error (condition) (princ-to-string condition)))))
+      (is (equal '("rules.lisp: RULE GRIP9, clause 1: PARALLEL takes 2 surfaces, here it has 1"
+                   "rules.lisp: RULE GRIP9, action 1: FROB is no action; actions are REMEMBER, CANT, TRY, KEEP"
+                   "The knowledge in force stays as it was.")
+                 (remove-if (lambda (line) (search "warning" line))
+                            (lines-of report)))))
+    (is (eq before supergrip:*knowledge*))))
+
+(test a-grasp-is-edited-by-setq
+  (with-knowledge-restored
+    (supergrip-user::setq pinch-2-parallel
+                          '(used-surfaces (n1 n2 a2)
+                            conditions ((dist '(n1 n2)) < 1)
+                            offset (list 0 0 0 0 0 0) wrench (1 1 1 1 1 1) twist (1 1 1 1 1 1)))
+    (is (null (supergrip:possible-grasps (supergrip:try-grasp "PINCH-2-PARALLEL" (paper-box)))))
+    (is (= 7 (length (supergrip:knowledge-grasps supergrip:*knowledge*)))))
+  (let ((x 1))
+    (supergrip-user::setq x 2)
+    (is (= 2 x) "anything else is set as ever")))
+
+(test knowledge-is-read-again
+  (with-knowledge-restored
+    (uiop:with-temporary-file (:stream out :pathname rules :keep nil)
+      (write-string *good-rules* out)
+      :close-stream
+      (uiop:with-temporary-file (:stream out :pathname grasps :keep nil)
+        (write-string *good-grasps* out)
+        :close-stream
+        (supergrip:reload-knowledge :rules rules :grasps grasps)
+        (is (= 4 (length (supergrip:knowledge-rules supergrip:*knowledge*))))
+        (with-open-file (out rules :direction :output :if-exists :supersede)
+          (write-string "(RULE" out))
+        (signals supergrip:knowledge-error (supergrip:reload-knowledge))
+        (is (= 4 (length (supergrip:knowledge-rules supergrip:*knowledge*))))))))
+
+(test comparing-knowledge-tells-what-an-edit-changed
+  (with-knowledge-restored
+    (let ((old supergrip:*knowledge*)
+          (boxes (list (paper-box) (cons '(name "soap") (changed-box :u 0.05)))))
+      (supergrip:edit '(rule grip9 (if (parallel (s1 s2)) (large (s1 s2)))
+                        (then (try pinch-3-parallel (s1 s2 ? ? ? ?)))))
+      (is (equal '("12 x 2 x 2 cm: PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1) Q=0.770, was PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1) Q=0.860"
+                   "1 of 2 boxes differ: 0 in verdict, 1 in grasp, 0 in quality.")
+                 (printed (supergrip:compare-knowledge old supergrip:*knowledge* boxes)))))))
+
+;;; The README's transcripts
+
+(defun readme-blocks ()
+  "Return the blocks of the README that are transcripts of the REPL."
+  (let ((blocks '()) (block nil) (inside nil))
+    (dolist (line (lines-of (file-text "README.md")) (nreverse blocks))
+      (cond ((and (not inside) (string= line "```lisp")) (setf inside t block '()))
+            ((and inside (string= line "```"))
+             (when (and block (eql 0 (search "* " (first (last block)))))
+               (push (reverse block) blocks))
+             (setf inside nil))
+            (inside (push line block))))))
+
+(defun transcript-steps (block)
+  "Return a list of (FORM . LINES) of BLOCK: what is typed, and what comes out."
+  (let ((text (format nil "~{~a~%~}" block)) (steps '()) (position 0))
+    (loop while (eql (mismatch "* " text :start2 position) 2)
+          do (multiple-value-bind (form end)
+                 (let ((*package* (find-package :supergrip-user)))
+                   (read-from-string text t nil :start (+ position 2)))
+               (let* ((next (search (format nil "~%* ") text :start2 (max 0 (1- end))))
+                      (output (subseq text end (if next (1+ next) (length text)))))
+                 (push (cons form (remove "" (lines-of output) :test #'string=)) steps)
+                 (setf position (if next (1+ next) (length text))))))
+    (nreverse steps)))
+
+(test the-readme-shows-what-happens
+  (let ((blocks (readme-blocks)))
+    (is (>= (length blocks) 2))
+    (with-knowledge-restored
+      (let ((supergrip::*box* nil) (supergrip:*plan* nil))
+        (dolist (block blocks)
+          (loop for (form . lines) in (transcript-steps block)
+                for value = nil
+                for output = (unless (eq (first form) 'in-package)
+                               (printed (setf value (eval form))))
+                when lines
+                  do (is (or (equal lines output)
+                             (equal lines (append output
+                                                  (let ((*package* (find-package :supergrip-user)))
+                                                    (list (prin1-to-string value))))))
+                         "~s gave~%~{~a~%~}" form output)))))))

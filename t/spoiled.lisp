@@ -1,0 +1,273 @@
+;;;; spoiled.lisp -- a table of spoiled rule and grasp files, and all that is said of each.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defparameter *good-rules*
+  "(RULE OBVIOUS
+  (IF (SMALL (s1 s2))
+      (CONSTRAINED (s1)))
+  (THEN (CANT GRASP IT)))
+(RULE FIND
+  (IF (OPPOSED (s1 s2))
+      (NOT CONSTRAINED (s1))
+      (NOT CONSTRAINED (s2)))
+  (THEN (REMEMBER PARALLEL (s1 s2))
+        (REMEMBER OBJECT HAS PARALLEL SURFACES)))
+(RULE ACROSS
+  (IF (PARALLEL (s1 s2)))
+  (THEN (TRY G (s1 s2 ? ? ? ?))))
+(RULE END
+  (IF (OBJECT HAS PARALLEL SURFACES))
+  (THEN (KEEP BEST)))
+")
+
+(defparameter *good-grasps*
+  "(SETQ GRIPPER
+  '(FINGER-LENGTH 3 FINGER-DIST 6 FINGER-SPREAD 2
+    FINGER-WIDTH 1 DIST-PINCH 12 WIDTH-HAND 8 SLIPPERY-U 0.1))
+(DEFUN HALF (x)
+  (/ x 2))
+(SETQ G
+  '(USED-SURFACES (N1 N2 A2)
+    CONDITIONS ((DIST '(N1 N2)) < DIST-PINCH)
+    OFFSET (LIST 0 0 0 0 0 0)
+    WRENCH (1 (* 2 u) (* 2 u)
+            (* 2 v)
+            (* u (DIST '(N1 N2)))
+            (* u (DIST '(N1 N2))))
+    TWIST (1 1 1 1 1 1)
+    CONTACTS ((N1 0 0) (N2 0 0))
+    PALM A2))
+")
+
+(defparameter *spoiled*
+  '(
+    (:RULES "(RULE END" "(RULE"
+     "rules.lisp:14: RULE without a name: a rule is (RULE name (IF clause...) (THEN action...))")
+    (:RULES "(RULE END" "(RULES END"
+     "rules.lisp:14: (RULES END (IF (OBJECT HAS PARALLEL SURFACES)) (THEN (KEEP BEST))) is no rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(WHEN (PARALLEL (s1 s2)))"
+     "rules.lisp:11: RULE ACROSS: a rule is (RULE name (IF clause...) (THEN action...))")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF)"
+     "rules.lisp:11: RULE ACROSS: IF has no clause")
+    (:RULES "(THEN (KEEP BEST))" "(THEN)"
+     "rules.lisp:14: RULE END: THEN has no action")
+    (:RULES "(THEN (KEEP BEST))" ""
+     "rules.lisp:14: RULE END: a rule is (RULE name (IF clause...) (THEN action...))")
+    (:RULES "(RULE END" "(RULE FIND"
+     "rules.lisp:14: RULE FIND: there is a rule of this name before it")
+    (:RULES "(THEN (KEEP BEST)))" "(THEN (KEEP BEST))"
+     "rules.lisp:14:1: this parenthesis is never closed")
+    (:RULES "(THEN (KEEP BEST)))" "(THEN (KEEP BEST))))"
+     "rules.lisp:16:22: a closing parenthesis too many")
+    (:RULES "(RULE END" "#.(RULE END"
+     "rules.lisp:14:1: # can't stand in a name or a number")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF PARALLEL)"
+     "rules.lisp:11: RULE ACROSS, clause 1: PARALLEL is not a clause: a clause is a list")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1)))"
+     "rules.lisp:12: RULE ACROSS, clause 1: PARALLEL takes 2 surfaces, here it has 1")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL))"
+     "rules.lisp:12: RULE ACROSS, clause 1: PARALLEL takes 2 surfaces, here it has none")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1 s1)))"
+     "rules.lisp:12: RULE ACROSS, clause 1: the same surface twice in (S1 S1): lists of surfaces hold distinct ones")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1 W2)))"
+     "rules.lisp:12: RULE ACROSS, clause 1: W2 is neither a surface (X1 to Z2) nor a variable (a name that begins with S, as S1)")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1 2)))"
+     "rules.lisp:12: RULE ACROSS, clause 1: 2 is not a surface")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1 s2) NEARLY))"
+     "rules.lisp:12: RULE ACROSS, clause 1: (PARALLEL (S1 S2) NEARLY): a sentence is made of words, and may end in one list of surfaces"
+     "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides PARALLEL NEARLY, so the rule can never fire")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (NOT NOT PARALLEL (s1 s2)))"
+     "rules.lisp:12: RULE ACROSS, clause 1: (NOT NOT PARALLEL (S1 S2)) is negated twice")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (NOT OBJECT HAS NO PARALLEL SURFACES))"
+     "rules.lisp:12: RULE ACROSS, clause 1: (NOT OBJECT HAS NO PARALLEL SURFACES) is negated twice")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (NOT (PARALLEL (s1 s2))))"
+     "rules.lisp:12: RULE ACROSS, clause 1: write (NOT PARALLEL (S1 S2)): NOT stands before the words, without a list of its own")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (NOT))"
+     "rules.lisp:12: RULE ACROSS, clause 1: an empty sentence")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (CORNER (s1 s2 s3 s4 s5 s6)) (SMALL (s7 s8)))"
+     "rules.lisp:12: RULE ACROSS, clause 2: more than six variables: a box has six surfaces"
+     "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides CORNER, so the rule can never fire")
+    (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRIES G (s1 s2 ? ? ? ?))"
+     "rules.lisp:13: RULE ACROSS, action 1: TRIES is no action; actions are REMEMBER, CANT, TRY, KEEP"
+     "grasps.lisp:6: warning: GRASP G: no rule tries it")
+    (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY H (s1 s2 ? ? ? ?))"
+     "rules.lisp:13: RULE ACROSS, action 1: TRY names H, which is not in the database"
+     "grasps.lisp:6: warning: GRASP G: no rule tries it")
+    (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY)"
+     "rules.lisp:13: RULE ACROSS, action 1: TRY names a grasp, as (TRY PINCH-3-PARALLEL)"
+     "grasps.lisp:6: warning: GRASP G: no rule tries it")
+    (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (s1 s2))"
+     "rules.lisp:13: RULE ACROSS, action 1: a suggested matching is one list of six, for N1 N2 O1 O2 A1 A2, with ? for any: (? s3 s1 s2 ? s4)")
+    (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (s1 s3 ? ? ? ?))"
+     "rules.lisp:13: RULE ACROSS, action 1: the variable S3 stands in no clause of the antecedent")
+    (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (s1 s1 ? ? ? ?))"
+     "rules.lisp:13: RULE ACROSS, action 1: the same surface twice in (S1 S1): lists of surfaces hold distinct ones")
+    (:RULES "(TRY G (s1 s2 ? ? ? ?))" "TRY"
+     "rules.lisp:11: RULE ACROSS, action 1: TRY is not an action: an action is a list that begins with REMEMBER, CANT, TRY, KEEP"
+     "grasps.lisp:6: warning: GRASP G: no rule tries it")
+    (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER PARALLEL (s1 s5))"
+     "rules.lisp:9: RULE FIND, action 1: the variable S5 stands in no clause of the antecedent")
+    (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER NOT PARALLEL (s1 s2))"
+     "rules.lisp:9: RULE FIND, action 1: a negation can't be remembered: what is not remembered is false")
+    (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER)"
+     "rules.lisp:9: RULE FIND, action 1: an empty sentence"
+     "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides PARALLEL, so the rule can never fire")
+    (:RULES "(KEEP BEST)" "(KEEP ALL)"
+     "rules.lisp:16: RULE END, action 1: KEEP is (KEEP BEST)")
+    (:RULES "(CANT GRASP IT)" "(CANT)"
+     "rules.lisp:4: RULE OBVIOUS, action 1: CANT is followed by words that say why")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALEL (s1 s2)))"
+     "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides PARALEL (did you mean PARALLEL?), so the rule can never fire")
+    (:RULES "(IF (OBJECT HAS PARALLEL SURFACES))" "(IF (OBJECT HAS NO PARALEL SURFACES))"
+     "rules.lisp:15: warning: RULE END, clause 1: nothing provides OBJECT HAS PARALEL SURFACES (did you mean OBJECT HAS PARALLEL SURFACES?), so this always holds")
+    (:RULES "(CONSTRAINED (s1)))
+  (THEN (CANT" "(PARALLEL (s1 s2)))
+  (THEN (CANT"
+     "rules.lisp:3: warning: RULE OBVIOUS, clause 2: PARALLEL is tested here, but RULE FIND, which derives it, comes later; rules run in order, each once")
+    (:RULES "(CONSTRAINED (s1)))
+  (THEN (CANT" "(NOT PARALLEL (s1 s2)))
+  (THEN (CANT"
+     "rules.lisp:3: warning: RULE OBVIOUS, clause 2: the absence of PARALLEL is tested here, but RULE FIND, which derives it, comes later; rules run in order, each once")
+    (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1 s2)) (NOT PARALLEL (s2 s1)))"
+     "rules.lisp:12: warning: RULE ACROSS, clause 2: this contradicts clause 1, so the rule can never fire")
+    (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER PARALLEL (s1 s2)) (REMEMBER OBJECT HAS PARALLEL SURFACE)"
+     "rules.lisp:9: warning: RULE FIND, action 2: no rule tests OBJECT HAS PARALLEL SURFACE (did you mean OBJECT HAS PARALLEL SURFACES?)")
+    (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(REMEMBER DONE)"
+     "grasps.lisp:6: warning: GRASP G: no rule tries it")
+    (:GRASPS "(SETQ GRIPPER" "(SETQ GRIPER"
+     "grasps.lisp: GRIPPER: there is no (SETQ GRIPPER '(...))"
+     "grasps.lisp:1: GRIPER is no grasp (did you mean GRIPPER?): its list has none of the keys USED-SURFACES, CONDITIONS, OFFSET, WRENCH, TWIST, CONTACTS, PALM")
+    (:GRASPS "FINGER-LENGTH 3" "FINGER-LENGTH"
+     "grasps.lisp:1: GRIPPER: FINGER-LENGTH has no number after it")
+    (:GRASPS "FINGER-LENGTH 3" ""
+     "grasps.lisp:1: GRIPPER: FINGER-LENGTH is missing")
+    (:GRASPS "FINGER-LENGTH 3" "FINGER-LENGTH -3"
+     "grasps.lisp:1: GRIPPER: FINGER-LENGTH is -3; a dimension is a number from 0")
+    (:GRASPS "FINGER-LENGTH 3" "FINGER-LENGTH 3 FINGER-LENGTH 4"
+     "grasps.lisp:1: GRIPPER: FINGER-LENGTH is given twice")
+    (:GRASPS "FINGER-LENGTH 3" "FINGER-LENGTH 3 U 0.5"
+     "grasps.lisp:1: GRIPPER: U can't be a dimension: it means something else in a form")
+    (:GRASPS "DIST-PINCH 12" "DIST-PINCH 12.5"
+     "grasps.lisp:1: GRIPPER: DIST-PINCH is 12.5, but fingers of two links of 3 cm that start 6 cm apart open to 12 at most")
+    (:GRASPS "FINGER-WIDTH 1" "FINGER-WIDTH 3"
+     "grasps.lisp:1: GRIPPER: FINGER-WIDTH is 3, more than FINGER-SPREAD, 2")
+    (:GRASPS "FINGER-SPREAD 2" "FINGER-SPREAD 13"
+     "grasps.lisp:1: GRIPPER: FINGER-SPREAD is 13, more than DIST-PINCH, 12")
+    (:GRASPS "(DEFUN HALF (x)" "(SETQ GRIPPER '(FINGER-LENGTH 3)) (DEFUN HALF (x)"
+     "grasps.lisp:4: GRIPPER: the gripper is given twice")
+    (:GRASPS "(DEFUN HALF (x)" "(DEFUN HALF x"
+     "grasps.lisp:4: DEFUN HALF: a helper is (DEFUN name (parameter...) form)")
+    (:GRASPS "(DEFUN HALF (x)" "(DEFUN SQRT (x)"
+     "grasps.lisp:4: DEFUN SQRT: SQRT is already an operator")
+    (:GRASPS "(/ x 2)" "(/ y 2)"
+     "grasps.lisp:5: DEFUN HALF: unknown name Y; known are U, V, the gripper's dimensions and what LET* binds")
+    (:GRASPS "(/ x 2)" "(HALF x)"
+     "grasps.lisp:5: DEFUN HALF: unknown operator HALF in (HALF X); operators are + - * / SQRT EXPT MIN MAX ABS POSIT DIST COND IF LET LET*")
+    (:GRASPS "(DEFUN HALF (x)" "(DEFINE HALF (x)"
+     "grasps.lisp:4: a grasp file holds (SETQ GRIPPER '(...)), (DEFUN name (parameter...) form) and (SETQ grasp '(...)), not (DEFINE HALF (X) (/ X 2))")
+    (:GRASPS "(SETQ G
+  '(" "(SETQ G
+  ("
+     "grasps.lisp:6: a grasp file holds (SETQ GRIPPER '(...)), (DEFUN name (parameter...) form) and (SETQ grasp '(...)), not (SETQ G (USED-SURFACES (N1 N2 A2) CONDITIONS ((DIST '(N1 N2)) < DIST-PINCH) OFFSET (LIST 0 0 0 0 0 0) WRENCH (1 (* 2 U) (* 2 U) (* 2 V) (* U (DIST '(N1 N2))) (* U (DIST '(N1 N2)))) TWIST (1 1 1 1 1...")
+    (:GRASPS "USED-SURFACES (N1 N2 A2)" ""
+     "grasps.lisp:6: GRASP G: USED-SURFACES is missing")
+    (:GRASPS "USED-SURFACES" "USED-SURFACE"
+     "grasps.lisp:6: GRASP G: unknown key USED-SURFACE (did you mean USED-SURFACES?); keys are USED-SURFACES, CONDITIONS, OFFSET, WRENCH, TWIST, CONTACTS, PALM"
+     "grasps.lisp:6: GRASP G: USED-SURFACES is missing")
+    (:GRASPS "USED-SURFACES (N1 N2 A2)" "USED-SURFACES (N1 N2 X1)"
+     "grasps.lisp:7: GRASP G, USED-SURFACES: (N1 N2 X1): USED-SURFACES are some of N1 N2 O1 O2 A1 A2")
+    (:GRASPS "USED-SURFACES (N1 N2 A2)" "USED-SURFACES (N1 N1 A2)"
+     "grasps.lisp:7: GRASP G, USED-SURFACES: (N1 N1 A2): the same surface twice")
+    (:GRASPS "PALM A2" "PALM A2 PALM A2"
+     "grasps.lisp:6: GRASP G: PALM is given twice")
+    (:GRASPS "PALM A2" "PALM"
+     "grasps.lisp:6: GRASP G: a grasp is a list of keys and values in turn; the last, PALM, has no value")
+    (:GRASPS "PALM A2" "PALM A1"
+     "grasps.lisp:6: GRASP G, PALM: the palm faces A1, which is not one of USED-SURFACES")
+    (:GRASPS "PALM A2" "PALM TOP"
+     "grasps.lisp:6: GRASP G, PALM: TOP: PALM is one of N1 N2 O1 O2 A1 A2")
+    (:GRASPS "((N1 0 0) (N2 0 0))" "((N1 0 0) (O2 0 0))"
+     "grasps.lisp:15: GRASP G, CONTACTS: a finger is on O2, which is not one of USED-SURFACES")
+    (:GRASPS "((N1 0 0) (N2 0 0))" "((N1 0) (N2 0 0))"
+     "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: a face, and its place on it along the two other axes, as (N1 0 0)")
+    (:GRASPS "((N1 0 0) (N2 0 0))" "()"
+     "grasps.lisp:6: GRASP G, CONTACTS: CONTACTS lists no contact")
+    (:GRASPS "(LIST 0 0 0 0 0 0)" "(LIST 0 0 0 0 0)"
+     "grasps.lisp:9: GRASP G, OFFSET: 5 entries, six are needed: along N O A, about N O A (OFFSET: N1 N2 O1 O2 A1 A2)")
+    (:GRASPS "(LIST 0 0 0 0 0 0)" "0"
+     "grasps.lisp:6: GRASP G, OFFSET: 0 is not a list of six entries")
+    (:GRASPS "(* 2 v)" ""
+     "grasps.lisp:10: GRASP G, WRENCH: 5 entries, six are needed: along N O A, about N O A (OFFSET: N1 N2 O1 O2 A1 A2)")
+    (:GRASPS "(* 2 v)" "(* 2 w)"
+     "grasps.lisp:11: GRASP G, WRENCH: unknown name W; known are U, V, the gripper's dimensions and what LET* binds")
+    (:GRASPS "(* 2 v)" "(SIN v)"
+     "grasps.lisp:11: GRASP G, WRENCH: unknown operator SIN (did you mean MIN?) in (SIN V); operators are + - * / SQRT EXPT MIN MAX ABS POSIT DIST COND IF LET LET* HALF")
+    (:GRASPS "(* 2 v)" "(SQRT 2 v)"
+     "grasps.lisp:11: GRASP G, WRENCH: SQRT takes 1 argument, here 2: (SQRT 2 V)")
+    (:GRASPS "(* 2 v)" "(/ 2 0)"
+     "grasps.lisp:11: GRASP G, WRENCH: (/ 2 0) has no value")
+    (:GRASPS "(* 2 v)" "\"2v\""
+     "grasps.lisp:10: GRASP G, WRENCH: \"2v\" is not a number, a name or an operation")
+    (:GRASPS "(* 2 v)" "(COND ((> v 0) 1))"
+     "grasps.lisp:11: GRASP G, WRENCH: the last clause of COND must be (T ...), or a case has no value")
+    (:GRASPS "(* 2 v)" "(IF (> v 0) 1)"
+     "grasps.lisp:11: GRASP G, WRENCH: IF is (IF test then else)")
+    (:GRASPS "(* 2 v)" "(LET* ((x)) 1)"
+     "grasps.lisp:11: GRASP G, WRENCH: (X) is not a binding, as (r (/ (DIST '(N1 N2)) 2))")
+    (:GRASPS "(* 2 v)" "(DIST '(N1 A1))"
+     "grasps.lisp:11: GRASP G, WRENCH: (DIST '(N1 A1)): DIST takes two opposite faces, as (DIST '(N1 N2))")
+    (:GRASPS "(* 2 v)" "(HALF)"
+     "grasps.lisp:11: GRASP G, WRENCH: HALF takes 1 argument, here 0: (HALF)")
+    (:GRASPS "(* 2 v)" "(EVAL (QUIT))"
+     "grasps.lisp:11: GRASP G, WRENCH: unknown operator EVAL in (EVAL (QUIT)); operators are + - * / SQRT EXPT MIN MAX ABS POSIT DIST COND IF LET LET* HALF")
+    (:GRASPS "(* 2 v)" "1e999"
+     "grasps.lisp:11:13: 1e999 is out of range: numbers lie between 1e-300 and 1e300, or are 0")
+    (:GRASPS "(1 1 1 1 1 1)" "(1 1 1 1 1 -1)"
+     "grasps.lisp:14: GRASP G, TWIST: an entry below 0: mobility is 0 or more")
+    (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "((DIST '(N1 N2)) < DIST-PINCH AND)"
+     "grasps.lisp:8: GRASP G, CONDITIONS: ((DIST '(N1 N2)) < DIST-PINCH AND): AND stands between two tests")
+    (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "((DIST '(N1 N2)) LESS DIST-PINCH)"
+     "grasps.lisp:8: GRASP G, CONDITIONS: ((DIST '(N1 N2)) LESS DIST-PINCH) is not a test: write (a < b), and join tests by AND and OR")
+    (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "(CONSTRAINED Z1)"
+     "grasps.lisp:8: GRASP G, CONDITIONS: (CONSTRAINED Z1): CONSTRAINED takes one of N1 N2 O1 O2 A1 A2")
+    (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "(NOT T T)"
+     "grasps.lisp:8: GRASP G, CONDITIONS: (NOT T T): NOT takes one test")
+    (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "(FINGER-LENGTH > DIST-PINCH)"
+     "grasps.lisp:8: warning: GRASP G, CONDITIONS: these conditions are false for every box"))
+  "Which of the two texts is spoiled, what in it is replaced, by what, and all reports.")
+
+(defun spoiled-reports (file from to)
+  "Return the reports on the good texts, FROM replaced by TO in the rules or the grasps."
+  (flet ((text (which good)
+           (if (eq file which)
+               (let ((place (search from good)))
+                 (concatenate 'string (subseq good 0 place) to
+                              (subseq good (+ place (length from)))))
+               good)))
+    (mapcar #'princ-to-string
+            (nth-value 1 (text-knowledge (text :rules *good-rules*)
+                                         (text :grasps *good-grasps*))))))
+
+(test the-good-files-are-good
+  (is (null (nth-value 1 (text-knowledge *good-rules* *good-grasps*)))))
+
+(test the-shipped-knowledge-has-no-warning
+  (is (null (supergrip:knowledge-warnings supergrip:*knowledge*))))
+
+(test every-mistake-is-named-with-its-line
+  (is (>= (length *spoiled*) 40))
+  (loop for (file from to . reports) in *spoiled*
+        do (is (equal reports (spoiled-reports file from to)) "~s for ~s" to from)))
+
+(test several-mistakes-are-all-reported
+  (let ((reports (mapcar #'princ-to-string
+                         (nth-value 1 (text-knowledge
+                                       (replace-once (replace-once *good-rules* "(KEEP BEST)" "(KEEP IT)")
+                                                     "(SMALL (s1 s2))" "(SMALL (s1))")
+                                       (replace-once *good-grasps* "PALM A2" "PALM A1"))))))
+    (is (equal '("grasps.lisp:6: GRASP G, PALM: the palm faces A1, which is not one of USED-SURFACES"
+                 "rules.lisp:2: RULE OBVIOUS, clause 1: SMALL takes 2 surfaces, here it has 1"
+                 "rules.lisp:16: RULE END, action 1: KEEP is (KEEP BEST)")
+               reports))))
