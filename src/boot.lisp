@@ -10,14 +10,28 @@
 ;;; Naming the one directory keeps ASDF from searching, and from upgrading itself.
 (asdf:initialize-source-registry
  `(:source-registry
-   (:directory ,(merge-pathnames "../" (make-pathname :name nil :type nil :defaults *load-truename*)))
+   (:directory ,(merge-pathnames "../" (make-pathname :name nil :type nil
+                                                      :defaults *load-truename*)))
    :ignore-inherited-configuration))
 
-(let* ((*compile-verbose* nil) (*compile-print* nil) (*load-verbose* nil)
-       (output (make-broadcast-stream)))
-  (flet ((quietly (operation)
-           (let ((*standard-output* output) (*error-output* output) (*trace-output* output))
-             (handler-bind ((warning #'muffle-warning))
-               (asdf:operate operation "supergrip")))))
-    (handler-case (quietly 'asdf:load-op)
-      (error () (quietly 'asdf:load-source-op)))))
+(flet ((quietly (operation)
+         (let* ((*compile-verbose* nil) (*compile-print* nil) (*load-verbose* nil)
+                (output (make-broadcast-stream))
+                (*standard-output* output) (*error-output* output) (*trace-output* output))
+           (handler-bind ((warning #'muffle-warning))
+             (asdf:operate operation "supergrip"))))
+       (knowledge-error-p (condition)
+         (let ((package (find-package :supergrip-data)))
+           (and package (typep condition (find-symbol "KNOWLEDGE-ERROR" package)))))
+       (tell (condition)
+         (format sb-sys:*stderr* "~a~%" condition)
+         (finish-output sb-sys:*stderr*)
+         ;; A script ends; at the REPL there are the restarts.
+         (when sb-ext:*invoke-debugger-hook*
+           (sb-ext:exit :code 65 :abort t))))
+  (block ready
+    (handler-bind ((error (lambda (condition)
+                            (if (knowledge-error-p condition)
+                                (tell condition)
+                                (return-from ready (quietly 'asdf:load-source-op))))))
+      (quietly 'asdf:load-op))))

@@ -44,3 +44,39 @@ Returns its status, standard output and standard error."
         (is (eql 0 status) "~a" example)
         (is (equal "" errors) "~a: ~a" example errors)
         (is (equal "--END--" (first (last (lines-of output)))) "~a" example)))))
+
+(defun copy-project (directory)
+  "Copy what a script needs into DIRECTORY, with a mistake in the rules."
+  (dolist (name '("supergrip.asd" "rules.lisp" "grasps.lisp" "examples/pencil.lisp"))
+    (ensure-directories-exist (merge-pathnames name directory))
+    (uiop:copy-file (project-file name) (merge-pathnames name directory)))
+  (uiop:run-program (list "cp" "-r" (uiop:native-namestring (project-file "src"))
+                          (uiop:native-namestring directory)))
+  (with-open-file (out (merge-pathnames "rules.lisp" directory) :direction :output
+                                                                :if-exists :supersede)
+    (write-string (replace-once (file-text "rules.lisp") "(KEEP BEST)))
+
+;;;; ----" "(KEEP IT)))
+
+;;;; ----")
+                  out)))
+
+(test a-script-with-spoiled-rules-says-so-and-ends
+  (let ((directory (uiop:ensure-directory-pathname
+                    (format nil "~asupergrip-test-~d/" (uiop:native-namestring
+                                                        (uiop:temporary-directory))
+                            (random 1000000000 (make-random-state t))))))
+    (unwind-protect
+         (progn
+           (copy-project directory)
+           (multiple-value-bind (status output errors)
+               (run-process (list "sbcl" "--script"
+                                  (uiop:native-namestring
+                                   (merge-pathnames "examples/pencil.lisp" directory)))
+                            :environment (list (format nil "XDG_CACHE_HOME=~acache"
+                                                       (uiop:native-namestring directory))))
+             (is (eql 65 status))
+             (is (equal "" output))
+             (is (equal '("rules.lisp:94: RULE GRIP6, action 3: KEEP is (KEEP BEST)")
+                        (lines-of errors)))))
+      (uiop:delete-directory-tree directory :validate t :if-does-not-exist :ignore))))
