@@ -10,7 +10,8 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    ;; asking why
    #:how #:why-not #:explain-best #:describe-rule #:describe-grasp
    #:explain-fact #:explain-refusal #:advise #:write-answer
-   #:derivation #:derivation-p #:derivation-predicate #:derivation-packed #:derivation-rule #:derivation-binding #:derivation-parts #:derivation-note
+   #:derivation #:derivation-p #:derivation-predicate #:derivation-packed #:derivation-rule
+   #:derivation-binding #:derivation-parts #:derivation-note
    #:assumption #:unknown-fact #:unknown-fact-refusals
    #:refusal #:refusal-rule #:refusal-fired #:refusal-stop #:refusal-number #:refusal-clause
    #:refusal-bindings #:refusal-blocks
@@ -46,7 +47,8 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:try-grasp
    ;; conditions, from the data layer
    #:supergrip-error #:input-error #:input-error-problems #:syntax-error #:box-error
-   #:knowledge-error #:knowledge-warning #:knowledge-warning-problems #:retry #:no-box-error #:no-plan-error #:no-grasp-error #:no-rule-error #:no-fact-error
+   #:knowledge-error #:knowledge-warning #:knowledge-warning-problems #:retry
+   #:no-box-error #:no-plan-error #:no-grasp-error #:no-rule-error #:no-fact-error
    #:gamma-error
    #:problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text))

@@ -10,7 +10,8 @@ one generic function.")
    #:+surfaces+ #:surface #:surface-index #:surface-name #:opposite #:surface-axis #:surface-sign
    #:pack #:pack-mask #:pack-count #:pack-elements #:pack-names
    ;; predicates and working memory
-   #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text #:predicate-given #:predicate-given
+   #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
+   #:predicate-given
    #:memory #:make-memory #:memory-client #:memory-log
    #:recall #:remember #:facts #:assertions
    ;; rules

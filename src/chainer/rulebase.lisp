@@ -15,7 +15,8 @@ PREDICATE and TERMS are what it remembers, TARGET what else it names, if anythin
   (predicate nil) (terms '() :type list) (target nil))
 
 (defstruct rule
-  "A rule.  COMMENT is the list of the lines before it in its file.  VARIABLES are the names of its variables; the place of one is its number."
+  "A rule.  COMMENT is the list of the lines before it in its file.  VARIABLES are the names of its
+variables; the place of one is its number."
   (name nil) (form nil) (file nil) (line nil) (comment '()) (index 0 :type fixnum)
   (variables '() :type list)
   (clauses '() :type list)
