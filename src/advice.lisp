@@ -96,7 +96,10 @@ of CHANGEs, the smallest first."
   (or (some #'plusp (%box-force box)) (some #'plusp (%box-velocity box))))
 
 (defun plan-like (plan box)
-  (plan box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan)))
+  "Return the plan for BOX, made as PLAN was."
+  (if (plan-alone plan)
+      (try-grasp (plan-alone plan) box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))
+      (plan box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))))
 
 (defun find-change (plan key index)
   "Return the CHANGE of one value that is nearest to what it is, or NIL if none up to its bound does."
@@ -171,9 +174,10 @@ choice to change."
   (write-limit "Force" "exerts" "beyond the weight's load" (advice-force answer) stream)
   (write-limit "Velocity" "moves with" nil (advice-velocity answer) stream)
   (when (advice-runner-up answer)
-    (format stream "Next is ~a (~{~a~^ ~}), with Q ~a less.~%"
+    (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, tried later~;Q ~a less~].~%"
             (candidate-grasp (advice-runner-up answer))
-            (candidate-matching (advice-runner-up answer)) (figure (advice-margin answer))))
+            (candidate-matching (advice-runner-up answer)) (> (advice-margin answer) +tie+)
+            (figure (advice-margin answer))))
   (if (advice-changes answer)
       (write-changes (advice-changes answer) stream)
       (format stream "No single need, friction or weight would change the choice.~%")))
@@ -199,3 +203,6 @@ choice to change."
   (if (plan-best plan)
       (format nil "~a (~{~a~^ ~})" (plan-grasp plan) (plan-matching plan))
       "it can't be grasped"))
+
+(defmethod topic ((explanation advice))
+  (choice-text (advice-plan explanation)))

@@ -77,8 +77,8 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
     (dolist (value values set)
       (let ((face (and (namep value) (surface-index value))))
         (cond ((null face)
-               (return (complain nil "~a is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2"
-                                 (form-text value))))
+               (return (complain nil "~a is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2, ~
+                                       without parentheses of their own" (form-text value))))
               ((logbitp face set)
                (return (complain nil "~a is constrained twice" value)))
               (t (setf set (logior set (ash 1 face)))))))))
@@ -159,7 +159,7 @@ Signals a BOX-ERROR that holds all that is wrong with it."
   (multiple-value-bind (values problems)
       (let ((*file* nil) (*lines* nil) (*subject* "BOX") (*place* nil))
         (with-problems
-          (if (consp description)
+          (if (and (consp description) (some #'consp description))
               (box-values description)
               (complain nil "~a is not a box description: it is a list as ~
                              ((SIZE 12 2 2) (WEIGHT 0.2) ...)" (form-text description)))))

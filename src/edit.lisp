@@ -5,25 +5,33 @@
 
 (in-package :supergrip)
 
-(defun accept-edit (make)
-  "Put the knowledge that MAKE makes into force; if it is wrong, the former stays, and the
-KNOWLEDGE-ERROR says so."
+(defun put-into-force (accept make)
+  "Put the knowledge that ACCEPT, a function, makes of MAKE into force; if it is wrong, the former
+stays, and the KNOWLEDGE-ERROR says so."
   (setf *knowledge*
         (handler-bind ((knowledge-error
                          (lambda (condition)
                            (setf (knowledge-error-consequence condition)
                                  "The knowledge in force stays as it was."))))
-          (accept-knowledge make))))
+          (funcall accept make))))
+
+(defun accept-edit (make)
+  "Return the knowledge that MAKE makes; if it is wrong, the restart CONTINUE returns the former."
+  (restart-case (accept-knowledge make)
+    (continue ()
+      :report "Leave the knowledge in force as it was."
+      *knowledge*)))
 
 (defun reload-knowledge (&key rules grasps)
   "Read the files of the knowledge in force again, or the files RULES and GRASPS, and put what they
 hold into force.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
   (flet ((file (given in-force)
            (or given (data-file-path in-force))))
-    (accept-edit (lambda ()
-                   (build-knowledge
-                    (read-data-file (file rules (knowledge-rule-file *knowledge*)))
-                    (read-data-file (file grasps (knowledge-grasp-file *knowledge*))))))))
+    (put-into-force #'accept-files
+                    (lambda ()
+                      (build-knowledge
+                       (read-data-file (file rules (knowledge-rule-file *knowledge*)))
+                       (read-data-file (file grasps (knowledge-grasp-file *knowledge*))))))))
 
 (defun same-definition-p (form other)
   "True if FORM and OTHER define the same name in the same way."
@@ -53,7 +61,8 @@ the last one, which keeps the best; anything else at the end."
 in force, in place of the one of its name.  A new rule goes before the rule BEFORE, by default
 before the last; a new grasp goes last.  Returns the new knowledge.
 
-On a KNOWLEDGE-ERROR the former knowledge stays in force."
+On a KNOWLEDGE-ERROR the former knowledge stays in force; the restart CONTINUE goes on with it.  The
+files stay as they are: RELOAD-KNOWLEDGE takes edits back."
   (let* ((form (canonical form))
          (rule-p (part-named-p form "RULE")))
     (flet ((edited (file)
@@ -62,10 +71,11 @@ On a KNOWLEDGE-ERROR the former knowledge stays in force."
                copy)))
       (let ((rules (knowledge-rule-file *knowledge*))
             (grasps (knowledge-grasp-file *knowledge*)))
-        (accept-edit (lambda ()
-                       (if rule-p
-                           (build-knowledge (edited rules) grasps)
-                           (build-knowledge rules (edited grasps)))))))))
+        (put-into-force #'accept-edit
+                        (lambda ()
+                          (if rule-p
+                              (build-knowledge (edited rules) grasps)
+                              (build-knowledge rules (edited grasps)))))))))
 
 (defmacro rule (&whole form name &rest parts)
   "Put the rule NAME into the knowledge in force, as EDIT does: (RULE name (IF ...) (THEN ...))."

@@ -18,13 +18,25 @@
   (:report (lambda (condition stream)
              (with-slots (name known) condition
                (format stream "there is no rule or grasp ~a~a; there are ~{~a~^, ~}" name
-                       (suggestion (string-upcase name) known) known))))
+                       (suggestion (string-upcase name) known) known)
+               (when (in-force-p name)
+                 (format stream "~%The knowledge in force has it, but the plan was made before: ~
+                                 call (forward-chain) again.")))))
   (:documentation "A question was asked about a name that is neither a rule's nor a grasp's."))
 
 (defstruct explanation "What all answers to a question have in common.")
 
+(defgeneric topic (explanation)
+  (:documentation "Return what EXPLANATION is about, a string."))
+
 (defmethod print-object ((explanation explanation) stream)
-  (print-unreadable-object (explanation stream :type t)))
+  (print-unreadable-object (explanation stream :type t)
+    (write-string (topic explanation) stream)))
+
+(defun in-force-p (name)
+  "True if the knowledge in force has a rule or a grasp NAME."
+  (or (find-rule (knowledge-rulebase *knowledge*) name)
+      (find-grasp (knowledge-graspbase *knowledge*) name)))
 
 (defgeneric write-answer (answer stream)
   (:documentation "Write ANSWER, an explanation, to STREAM in words."))
@@ -109,10 +121,9 @@ input, where it comes from."
         (make-assumption :predicate (clause-predicate clause) :packed packed :rule rule)
         (derive plan (clause-predicate clause) packed))))
 
-(defun parse-fact (form plan)
-  "Return the predicate and the packed faces that FORM, as (PARALLEL (Y2 Y1)), means in PLAN."
+(defun parse-fact (form rulebase)
+  "Return the predicate and the packed faces that FORM, as (PARALLEL (Y2 Y1)), means in RULEBASE."
   (let* ((form (canonical form))
-         (rulebase (plan-rulebase plan))
          (list (and (consp form) (find-if #'consp form)))
          (words (and (consp form) (loop for word in form when (namep word)
                                         collect (symbol-name word))))
@@ -120,10 +131,15 @@ input, where it comes from."
          (faces (loop for face in list collect (and (namep face) (surface-index face)))))
     (flet ((refuse (control &rest arguments)
              (error 'no-fact-error :form form :text (apply #'format nil control arguments))))
-      (cond ((null predicate)
-             (refuse "nothing speaks of ~{~a~^ ~}~a" words
+      (cond ((null words)
+             (refuse "a fact is a list, as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)"))
+            ((or (member "NOT" words :test #'string=) (member "NO" words :test #'string=))
+             (refuse "ask about the sentence without NOT or NO"))
+            ((null predicate)
+             (refuse "nothing speaks of ~{~a~^ ~}~a; known are ~{~a~^, ~}" words
                      (suggestion (format nil "~{~a~^ ~}" words)
-                                 (map 'list #'predicate-text (rulebase-predicates rulebase)))))
+                                 (map 'list #'predicate-text (rulebase-predicates rulebase)))
+                     (map 'list #'predicate-text (rulebase-predicates rulebase))))
             ((or (member nil faces) (/= (length faces) (length (remove-duplicates faces)))
                  (/= (length faces) (predicate-arity predicate)))
              (refuse "~a takes ~[no surfaces~;one surface~:;~:*~d different surfaces~] of X1 X2 Y1 ~
@@ -138,12 +154,13 @@ derived it did not."
 (defun explain-fact (form &optional (plan *plan*))
   "Return how the fact FORM came to be known in PLAN: a DERIVATION, or an UNKNOWN-FACT."
   (let ((plan (need-plan plan)))
-    (multiple-value-bind (predicate packed) (parse-fact form plan)
+    (multiple-value-bind (predicate packed) (parse-fact form (plan-rulebase plan))
       (if (recall (plan-memory plan) predicate packed)
           (derive plan predicate packed)
           (make-unknown-fact :predicate predicate :packed packed
                              :refusals (loop for rule in (deriving-rules predicate plan)
-                                             collect (refuse-rule rule plan)))))))
+                                             collect (refuse-conclusion rule predicate packed
+                                                                        plan)))))))
 
 (defun how (fact &optional (plan *plan*))
   "Print and return how FACT, as '(PARALLEL (Y2 Y1)), came to be known in PLAN: the tree of rules,
@@ -218,17 +235,33 @@ the run before it, or NIL."
 (defun refuse-rule (rule plan)
   "Return the REFUSAL of RULE in PLAN."
   (multiple-value-bind (memory stop) (memory-before plan (rule-index rule))
-    (let ((fired (and (not stop) (rule-bindings rule memory))))
-      (cond (stop (make-refusal :rule rule :stop stop))
-            (fired (make-refusal :rule rule :fired fired))
-            (t (failing-clause rule memory plan))))))
+    (if stop
+        (make-refusal :rule rule :stop stop)
+        (or (failing-clause rule memory plan (constantly t))
+            (make-refusal :rule rule :fired (rule-bindings rule memory))))))
 
-(defun failing-clause (rule memory plan)
-  "Return the REFUSAL of RULE, which has no binding on MEMORY: the first clause that fails."
+(defun refuse-conclusion (rule predicate packed plan)
+  "Return the REFUSAL of RULE in PLAN as far as it might have said PREDICATE of the faces of PACKED."
+  (multiple-value-bind (memory stop) (memory-before plan (rule-index rule))
+    (let ((terms (action-terms (find predicate (rule-actions rule) :key #'action-predicate))))
+      (or (and stop (make-refusal :rule rule :stop stop))
+          (failing-clause rule memory plan
+                          (lambda (binding) (may-bind-p terms binding (pack-mask packed))))
+          (make-refusal :rule rule :fired (rule-bindings rule memory))))))
+
+(defun may-bind-p (terms binding faces)
+  "True if those of TERMS that BINDING binds are among FACES, a set, and the others may be."
+  (loop for term in terms
+        always (or (>= term (pack-count binding))
+                   (logbitp (term-value term binding) faces))))
+
+(defun failing-clause (rule memory plan wanted)
+  "Return the REFUSAL of RULE on MEMORY with regard to the bindings that are WANTED, a predicate: the
+first clause that fails for all of them.  NIL if none does."
   (loop for clause in (rule-clauses rule)
         for number from 1
         for bindings = (list 0) then next
-        for next = (prefix-bindings rule number memory)
+        for next = (remove-if-not wanted (prefix-bindings rule number memory))
         when (null next)
           return (make-refusal :rule rule :number number :clause clause :bindings bindings
                                :blocks (and (clause-negated clause)
@@ -296,3 +329,14 @@ the run before it, or NIL."
     (if (predicate-given (clause-predicate clause))
         (format nil "~a is an input, and the box does not give it~:[~; for these~]." words these)
         (format nil "No rule before said ~a~:[~; of these~]." words these))))
+
+;;; In print
+
+(defmethod topic ((explanation derivation))
+  (fact-text (derivation-predicate explanation) (derivation-packed explanation)))
+
+(defmethod topic ((explanation unknown-fact))
+  (fact-text (unknown-fact-predicate explanation) (unknown-fact-packed explanation)))
+
+(defmethod topic ((explanation refusal))
+  (rule-name (refusal-rule explanation)))

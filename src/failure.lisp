@@ -98,6 +98,26 @@
              "OFFSET's entries for two opposite faces are not opposite numbers")
     (arithmetic-error () "the fingers can't reach: a root or a quotient of OFFSET has no value")))
 
+(defun describe-finger-failure (candidate attempt)
+  "Return which finger of CANDIDATE would stand beyond an edge, and where."
+  (handler-case
+      (let ((registers (attempt-registers attempt)))
+        (run-program (grasp-positions (%candidate-grasp candidate)) registers)
+        (loop for (slot p q) in (grasp-contacts (%candidate-grasp candidate))
+              do (loop for axis in (remove (floor slot 2) '(0 1 2))
+                       for register in (list p q)
+                       for place = (+ (aref (attempt-centre attempt) axis)
+                                      (aref registers register))
+                       for length = (aref (attempt-lengths attempt) axis)
+                       unless (inside-p place length)
+                         do (return-from describe-finger-failure
+                              (format nil "a finger on ~a would stand at ~a cm along ~a, beyond ~
+                                           the edge at ~a"
+                                      (face-of slot (%candidate-matching candidate))
+                                      (figure place) (char "NOA" axis)
+                                      (figure (* (signum place) 0.5d0 length)))))))
+    (arithmetic-error () "a form of CONTACTS has no value")))
+
 (defun program-value-p (program registers)
   "True if PROGRAM has a value on REGISTERS."
   (handler-case (progn (run-program program registers) t)
@@ -161,7 +181,7 @@ with the figures.  NIL if it is possible."
                 (ecase outcome
                   (:conditions (describe-condition-failure candidate attempt))
                   (:offset (describe-offset-failure candidate attempt))
-                  (:fingers "a finger would stand outside the edges of its face")
+                  (:fingers (describe-finger-failure candidate attempt))
                   (:open (describe-open candidate attempt))
                   (:lifting (describe-lifting-failure attempt))))))))
 

@@ -354,9 +354,9 @@ LET*, LET, COND or IF, that gives them.  NIL after a complaint."
           (t (parse-six-entries form form scope)))))
 
 (defun parse-six-entries (form entries scope)
-  (if (/= (length entries) 6)
-      (complain form "~d entr~:@p, six are needed: along N O A, about N O A (OFFSET: N1 N2 O1 O2 ~
-                      A1 A2)" (length entries))
-      (let ((nodes (loop for entry in entries collect (parse-number-form entry scope))))
-        (and (notany #'null nodes)
-             (make-node :op :list :args nodes :form form)))))
+  (let ((nodes (loop for entry in entries collect (parse-number-form entry scope))))
+    (cond ((/= (length entries) 6)
+           (complain form "~d entr~:@p, six are needed: along N O A, about N O A (OFFSET: N1 N2 O1 ~
+                           O2 A1 A2)" (length entries)))
+          ((notany #'null nodes)
+           (make-node :op :list :args nodes :form form)))))

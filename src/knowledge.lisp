@@ -63,7 +63,7 @@ What is wrong is left out."
                (rulebase (with-data-file (rule-file)
                            (build-rulebase (data-file-forms rule-file) +inputs+
                                            :client graspbase))))
-          (check-knowledge graspbase rule-file grasp-file)
+          (check-knowledge graspbase rulebase rule-file grasp-file)
           (cons rulebase graspbase)))
     ;; What follows from a file that could not be read at all is no news.
     (let ((problems (or (append (data-file-problems grasp-file) (data-file-problems rule-file))
@@ -72,14 +72,16 @@ What is wrong is left out."
 
 ;;; What can't be meant
 
-(defun check-knowledge (graspbase rule-file grasp-file)
+(defun check-knowledge (graspbase rulebase rule-file grasp-file)
   "Warn of what is valid in rules and grasps but can't be meant."
   (with-data-file (rule-file)
     (when (null (data-file-forms rule-file))
       (complain nil "there is no rule"))
     (check-rules (data-file-forms rule-file) +inputs+))
-  (with-data-file (grasp-file)
-    (check-tried graspbase (data-file-forms rule-file))))
+  ;; Where a rule was left out, that nothing tries a grasp is no news.
+  (when (= (length (rulebase-rules rulebase)) (length (data-file-forms rule-file)))
+    (with-data-file (grasp-file)
+      (check-tried graspbase (data-file-forms rule-file)))))
 
 (defun tried-names (form)
   "Return the names of the grasps that the rule FORM tries."
@@ -121,21 +123,24 @@ What is wrong is left out."
 
 (defun accept-knowledge (make)
   "Return the knowledge that MAKE, a function that returns it and a list of problems, makes.
-Signals a KNOWLEDGE-ERROR with all of them if one is an error; restarts: RETRY calls MAKE again,
-CONTINUE goes on without the rules and grasps that are wrong.  Warns if there are only warnings."
+Signals a KNOWLEDGE-ERROR with all of them if one is an error; warns if there are only warnings."
+  (multiple-value-bind (knowledge problems) (funcall make)
+    (cond ((errors-in problems)
+           (error 'knowledge-error :problems problems))
+          (problems
+           (warn 'knowledge-warning :problems problems)))
+    knowledge))
+
+(defun accept-files (read)
+  "Return the knowledge that READ makes, as ACCEPT-KNOWLEDGE does, with the restarts RETRY, which
+calls READ again, and CONTINUE, which goes on without the rules and grasps that are wrong."
   (loop
-    (multiple-value-bind (knowledge problems) (funcall make)
-      (cond ((errors-in problems)
-             (restart-case (error 'knowledge-error :problems problems)
-               (retry ()
-                 :report "Read the rules and the grasps again.")
-               (continue ()
-                 :report "Go on without the rules and grasps that are wrong."
-                 (return knowledge))))
-            (t
-             (when problems
-               (warn 'knowledge-warning :problems problems))
-             (return knowledge))))))
+    (restart-case (return (accept-knowledge read))
+      (retry ()
+        :report "Read the rules and the grasps again.")
+      (continue ()
+        :report "Go on without the rules and grasps that are wrong."
+        (return (values (funcall read)))))))
 
 (defun load-knowledge (&key (rules (shipped-file "rules.lisp"))
                          (grasps (shipped-file "grasps.lisp")))
@@ -143,7 +148,7 @@ CONTINUE goes on without the rules and grasps that are wrong.  Warns if there ar
 Signals one KNOWLEDGE-ERROR that holds all that is wrong with them; restarts: RETRY reads the files
 again, CONTINUE leaves out the rules and grasps that are wrong.  What is valid but can't be meant is
 a KNOWLEDGE-WARNING."
-  (accept-knowledge (lambda () (build-knowledge (read-data-file rules) (read-data-file grasps)))))
+  (accept-files (lambda () (build-knowledge (read-data-file rules) (read-data-file grasps)))))
 
 (defvar *knowledge* (load-knowledge)
   "The rules and grasps that plans use if no others are given.")

@@ -18,7 +18,8 @@
   "What was decided for a box, and all that led to it."
   (box nil :type box) (knowledge nil :type knowledge) (gamma 0.5d0 :type double-float)
   (stop nil) (best nil) (candidates '() :type list) (log '() :type list)
-  (memory nil :type memory))
+  (memory nil :type memory)
+  (alone nil))                          ; the name of the grasp that was tried without rules
 
 (defmethod print-object ((plan plan) stream)
   (print-unreadable-object (plan stream :type t)
@@ -44,7 +45,7 @@ in all matchings that use no constrained face, equivalent ones once.  Other argu
         (error 'no-grasp-error :name name :knowledge knowledge))
       (try-matchings attempt grasp +all-matchings+
                      (lambda (candidate) (push candidate (memory-log memory))))
-      (finish-plan attempt memory knowledge nil))))
+      (finish-plan attempt memory knowledge nil (grasp-name grasp)))))
 
 (define-condition no-grasp-error (supergrip-error)
   ((name :initarg :name :reader no-grasp-error-name)
@@ -67,10 +68,11 @@ in all matchings that use no constrained face, equivalent ones once.  Other argu
                 (knowledge-dist-pinch knowledge) (knowledge-slippery-u knowledge))
     (values attempt memory)))
 
-(defun finish-plan (attempt memory knowledge stop)
-  "Return the plan that ATTEMPT and MEMORY hold.  Rules that end without KEEP or CANT keep the best."
+(defun finish-plan (attempt memory knowledge stop &optional alone)
+  "Return the plan that ATTEMPT and MEMORY hold, of the grasp ALONE if no rule has run.
+Rules that end without KEEP or CANT keep the best."
   (%make-plan :box (attempt-box attempt) :knowledge knowledge :gamma (attempt-gamma attempt)
-              :stop stop
+              :stop stop :alone alone
               :best (and (not (and stop (eq (stop-verdict stop) :cant)))
                          (attempt-best attempt))
               :candidates (reverse (attempt-candidates attempt))

@@ -31,7 +31,8 @@ BOX is a box or a description of one, by default what (setq box ...) gave; GAMMA
     (error 'no-box-error))
   (setf *plan*
         (if (or step *traced* *breaks* (> trace 1))
-            (traced-plan given knowledge gamma trace step (or stream (make-broadcast-stream)))
+            (traced-plan given knowledge gamma trace step
+                         (if (and stream (plusp trace)) stream (make-broadcast-stream)))
             (plan given :knowledge knowledge :gamma gamma)))
   (when (and stream (= trace 1) (not (or step *traced* *breaks*)))
     (write-transcript *plan* stream))

@@ -12,8 +12,7 @@ many bindings, 3 also every action and the candidates that fail, 4 also what mee
 (defun check-name (name)
   "Return NAME as a string if it names a rule or a grasp, or signal a NO-RULE-ERROR."
   (let ((name (string-upcase name)))
-    (if (or (find-rule (knowledge-rulebase *knowledge*) name)
-            (find-grasp (knowledge-graspbase *knowledge*) name))
+    (if (in-force-p name)
         name
         (error 'no-rule-error :name name
                               :known (append (mapcar #'rule-name (knowledge-rules *knowledge*))
@@ -39,6 +38,8 @@ many bindings, 3 also every action and the candidates that fail, 4 also what mee
 (defun break-on (what)
   "Stop a run of FORWARD-CHAIN in the debugger before the rule WHAT, a symbol or a string, or when the
 fact WHAT, as '(PARALLEL (Y2 Y1)), becomes known.  Returns all breaks."
+  (when (consp what)
+    (parse-fact what (knowledge-rulebase *knowledge*)))
   (pushnew (if (consp what) (form-text (canonical what)) (check-name what)) *breaks*
            :test #'string=)
   *breaks*)
@@ -116,7 +117,8 @@ rule, CONTINUE to the next break."))
     (cond ((not (candidate-p event))
            (write-event event (plan-rulebase plan) stream)
            (when (fact-broken-p event (plan-rulebase plan))
-             (pause "a fact to stop on is known")))
+             (pause "~a is known" (multiple-value-call #'fact-text
+                                    (event-fact event (plan-rulebase plan))))))
           ((candidate-quality event) (write-candidate event stream))
           ((or (>= level 3) (traced-p (candidate-grasp event)))
            (write-failed-candidate event plan stream)))))
@@ -139,9 +141,11 @@ rule, CONTINUE to the next break."))
                                  (rule-name rule) (and bindings (length bindings))))))
           (:action (destructuring-bind (rule action binding added) arguments
                      (when (full-p rule 3)
-                       (format stream "    ~a~@[ with ~a~]~%" (form-text (action-form action))
+                       (format stream "    ~a~@[ with ~a~]~:[~;: nothing left to try~]~%"
+                               (form-text (action-form action))
                                (let ((text (binding-text rule binding)))
-                                 (and (plusp (length text)) text))))
+                                 (and (plusp (length text)) text))
+                               (and (null added) (grasp-p (action-target action)))))
                      (write-additions added plan level stream)))
           (:stop nil))))))
 

@@ -239,6 +239,8 @@ return true as the second value."
   (let ((list (first operands)))
     (cond ((null operands) '())
           ((or (rest operands) (not (consp list)) (/= (length list) 6))
+           (when (consp list)
+             (parse-surfaces (remove-if (lambda (element) (name= element "?")) list) nil))
            (complain (action-form action) "a suggested matching is one list of six, for N1 N2 O1 ~
                                            O2 A1 A2, with ? for any: (? s3 s1 s2 ? s4)")
            (values nil t))
@@ -266,6 +268,8 @@ return true as the second value."
   (let* ((name (first (action-operands action)))
          (graspbase (rulebase-client rulebase))
          (grasp (and (namep name) (find-grasp graspbase (symbol-name name)))))
+    (unless grasp
+      (parse-suggestion (rest (action-operands action)) action))
     (cond (grasp (compile-try action grasp))
           ((not (namep name))
            (complain (action-form action) "TRY names a grasp, as (TRY PINCH-3-PARALLEL)"))

@@ -134,6 +134,10 @@ faces) if that is given, was not chosen, a NOT-CHOSEN."
                                  :known (append (mapcar #'rule-name (knowledge-rules knowledge))
                                                 (mapcar #'grasp-name (knowledge-grasps knowledge)))))
           ((null matching) (refuse-grasp grasp plan))
+          ((not (and (consp matching) (= (length matching) 6)))
+           (make-not-chosen :kind :no-matching :grasp grasp
+                            :text (format nil "~a is no matching: a matching is six faces, for N1 ~
+                                               N2 O1 O2 A1 A2" (form-text matching))))
           ((parse-matching matching) (refuse-matching grasp (parse-matching matching) plan))
           (t (make-not-chosen :kind :no-matching :grasp grasp :faces matching
                               :text (format nil "(~{~a~^ ~}) is no matching: N O A must be a proper ~
@@ -142,8 +146,13 @@ faces) if that is given, was not chosen, a NOT-CHOSEN."
 
 (defun why-not (name &optional matching (plan *plan*))
   "Print and return why the rule NAME did not fire in PLAN, or why the grasp NAME was not chosen, in
-MATCHING, six faces, if that is given.  NAME is a symbol or a string."
-  (answer (explain-refusal (string name) matching plan)))
+MATCHING, six faces, if that is given.  NAME is a symbol or a string; where it is a fact, the answer
+is HOW's.  PLAN may stand in the place of MATCHING."
+  (multiple-value-bind (matching plan)
+      (if (plan-p matching) (values nil matching) (values matching plan))
+    (if (consp name)
+        (how name plan)
+        (answer (explain-refusal (string name) matching plan)))))
 
 (defmethod write-answer ((answer not-chosen) stream)
   (format stream "~a~@[ (~{~a~^ ~})~]: ~a.~%" (grasp-name (not-chosen-grasp answer))
@@ -163,3 +172,6 @@ MATCHING, six faces, if that is given.  NAME is a symbol or a string."
               (three-decimals (candidate-quality candidate)) (candidate-matching candidate))
       (format stream "If tried it would fail; nearest in (~{~a~^ ~}): ~a.~%"
               (candidate-matching candidate) (nth-value 1 (candidate-failure candidate plan)))))
+
+(defmethod topic ((explanation not-chosen))
+  (grasp-name (not-chosen-grasp explanation)))

@@ -33,12 +33,20 @@
                "  Tried: S1 = Y2, S2 = Y1; S1 = Y1, S2 = Y2"
                "  LARGE is an input, and the box does not give it for these.")
              (printed (supergrip:how '(wide (y2 y1)) (pencil-plan)))))
+  (is (equal '("(PARALLEL (Z2 Z1)) is not known."
+               "RULE SURFACES1 did not fire: clause 3, (NOT CONSTRAINED (S2)), fails for all bindings before it."
+               "  Tried: S1 = Z1, S2 = Z2"
+               "  In its way stands"
+               "    (CONSTRAINED (Z2)): input, the box says so")
+             (printed (supergrip:why-not '(parallel (z2 z1)) (pencil-plan)))))
   (is (equal '("(SLIPPERY) is not known." "It is an input, which this box does not give.")
              (printed (supergrip:how '(slippery) (pencil-plan))))))
 
 (test questions-about-nothing-are-refused
   (loop for (form report) in
-        '(((paralel (y2 y1)) "(PARALEL (Y2 Y1)) is no fact that could be known: nothing speaks of PARALEL (did you mean PARALLEL?)")
+        '(((paralel (y2 y1)) "(PARALEL (Y2 Y1)) is no fact that could be known: nothing speaks of PARALEL (did you mean PARALLEL?); known are OPPOSED, SMALL, NARROW, LARGE, CONSTRAINED, SLIPPERY, PARALLEL, OBJECT HAS PARALLEL SURFACES, ADJACENT, OBJECT HAS ADJACENT SURFACES, CORNER, OBJECT HAS FREE CORNERS, WIDE")
+          ((not parallel (y2 y1)) "(NOT PARALLEL (Y2 Y1)) is no fact that could be known: ask about the sentence without NOT or NO")
+          (parallel "PARALLEL is no fact that could be known: a fact is a list, as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)")
           ((parallel (y2)) "(PARALLEL (Y2)) is no fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2")
           ((parallel (y2 y3)) "(PARALLEL (Y2 Y3)) is no fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2"))
         do (is (equal report (handler-case (supergrip:how form (pencil-plan))
@@ -214,6 +222,20 @@
                        (return name))))))
              (random-boxes 2000 12)))))
 
+(test advice-on-a-grasp-alone-tries-it-alone
+  (let ((changes (supergrip:advice-changes
+                  (supergrip:advise (supergrip:try-grasp "PINCH-3-CORNER" (paper-box))))))
+    (is (notany (lambda (change) (equal "PINCH-3-PARALLEL"
+                                        (supergrip:plan-grasp (supergrip:change-plan change))))
+                changes))))
+
+(test continue-after-a-bad-edit-keeps-what-was
+  (let ((before supergrip:*knowledge*))
+    (with-knowledge-restored
+      (handler-bind ((supergrip:knowledge-error #'continue))
+        (supergrip:edit '(rule grip9 (if (parallel (s1))) (then (keep best)))))
+      (is (eq before supergrip:*knowledge*)))))
+
 (test what-must-change-does-change-the-choice
   (is (null (first-fault
              (lambda (box)
@@ -271,7 +293,7 @@
          (is (search "before (RULE GRIP8" (first (stops #'go-on))))
          (supergrip:unbreak)
          (supergrip:break-on '(corner (x2 z1 y1)))
-         (is (equal '("a fact to stop on is known") (stops #'go-on)))
+         (is (equal '("(CORNER (Z1 Y1 X2)) is known") (stops #'go-on)))
          (supergrip:unbreak '(corner (x2 z1 y1)))
          (is (null (stops #'go-on))))
     (supergrip:unbreak)))

@@ -90,14 +90,11 @@
      "rules.lisp:12: RULE ACROSS, clause 2: more than six variables: a box has six surfaces"
      "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides CORNER, so the rule can never fire")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRIES G (s1 s2 ? ? ? ?))"
-     "rules.lisp:13: RULE ACROSS, action 1: TRIES is no action; actions are REMEMBER, CANT, TRY, KEEP"
-     "grasps.lisp:6: warning: GRASP G: no rule tries it")
+     "rules.lisp:13: RULE ACROSS, action 1: TRIES is no action; actions are REMEMBER, CANT, TRY, KEEP")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY H (s1 s2 ? ? ? ?))"
-     "rules.lisp:13: RULE ACROSS, action 1: TRY names H, which is not in the database"
-     "grasps.lisp:6: warning: GRASP G: no rule tries it")
+     "rules.lisp:13: RULE ACROSS, action 1: TRY names H, which is not in the database")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY)"
-     "rules.lisp:13: RULE ACROSS, action 1: TRY names a grasp, as (TRY PINCH-3-PARALLEL)"
-     "grasps.lisp:6: warning: GRASP G: no rule tries it")
+     "rules.lisp:13: RULE ACROSS, action 1: TRY names a grasp, as (TRY PINCH-3-PARALLEL)")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (s1 s2))"
      "rules.lisp:13: RULE ACROSS, action 1: a suggested matching is one list of six, for N1 N2 O1 O2 A1 A2, with ? for any: (? s3 s1 s2 ? s4)")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (s1 s3 ? ? ? ?))"
@@ -105,8 +102,7 @@
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (s1 s1 ? ? ? ?))"
      "rules.lisp:13: RULE ACROSS, action 1: the same surface twice in (S1 S1): lists of surfaces hold distinct ones")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "TRY"
-     "rules.lisp:11: RULE ACROSS, action 1: TRY is not an action: an action is a list that begins with REMEMBER, CANT, TRY, KEEP"
-     "grasps.lisp:6: warning: GRASP G: no rule tries it")
+     "rules.lisp:11: RULE ACROSS, action 1: TRY is not an action: an action is a list that begins with REMEMBER, CANT, TRY, KEEP")
     (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER PARALLEL (s1 s5))"
      "rules.lisp:9: RULE FIND, action 1: the variable S5 stands in no clause of the antecedent")
     (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER NOT PARALLEL (s1 s2))"

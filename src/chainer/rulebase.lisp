@@ -23,6 +23,10 @@ variables; the place of one is its number."
   (actions '() :type list)
   (matcher nil :type (or null function)))
 
+(defmethod print-object ((rule rule) stream)
+  (print-unreadable-object (rule stream :type t)
+    (format stream "~a" (rule-name rule))))
+
 (defstruct (rulebase (:constructor %make-rulebase))
   "Ordered rules and the predicates that they speak of.  CLIENT is what the actions of the lower
 level are compiled against."
