@@ -2,8 +2,9 @@
 ;;;;
 ;;;; Second of two stages.  All numbers live in one array of doubles, the registers: first what
 ;;;; the box and the matching give, then the constants of all forms, then intermediate results.
-;;;; A form becomes a list of small closures, each of which reads two registers and writes one,
-;;;; so that nothing is boxed; a step that was already done in the same list is not done again.
+;;;; A form becomes a list of small closures, each of which reads two registers, writes one, and
+;;;; returns nothing, so that no number is boxed; a step that was already done in the same list is
+;;;; not done again.
 
 (in-package :supergrip)
 
@@ -93,7 +94,8 @@ and by operator and registers; LAYOUT."
   (declare (type register a b to))
   (macrolet ((binary (form)
                `(step-function (r)
-                  (setf (aref r to) (let ((x (aref r a)) (y (aref r b))) ,form)))))
+                  (setf (aref r to) (let ((x (aref r a)) (y (aref r b))) ,form))
+                  nil)))
     (ecase op
       (:+ (binary (+ x y)))
       (:- (binary (- x y)))
@@ -107,7 +109,8 @@ and by operator and registers; LAYOUT."
                      (let ((x (aref r a)))
                        (if (< x 0d0)
                            (real-root x)
-                           (sqrt (the (double-float 0d0) x))))))))))
+                           (sqrt (the (double-float 0d0) x)))))
+               nil)))))
 
 (defun run-function (code)
   "Return a function of registers that runs the steps of CODE, or NIL if there are none."
