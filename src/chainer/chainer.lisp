@@ -10,6 +10,7 @@ WORDS what it said, as strings."
 ;;; The log.  An event is one integer: the numbers of the rule and of the action, and the binding
 ;;; under which the action was done; so everything about it can be told later.
 
+(declaim (inline log-event))
 (defun log-event (memory rule action binding)
   "Note in the log of MEMORY that RULE did its ACTION, a number, under BINDING."
   (declare (type memory memory) (type packed binding) (type (unsigned-byte 8) action))
