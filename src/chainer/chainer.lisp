@@ -75,10 +75,15 @@ second.  Returns the STOP of the action that ended the run, or NIL if none did."
           (setf (action-predicate action) predicate
                 (action-terms action) terms
                 (action-function action)
-                (let ((rule *rule*) (number (action-number action)))
+                (let ((rule *rule*) (number (action-number action))
+                      (arity (predicate-arity predicate)))
                   (lambda (memory binding)
-                    (when (remember memory predicate (instantiate terms binding))
-                      (log-event memory rule number binding))
+                    (let ((packed (instantiate terms binding)))
+                      ;; A variable may have taken a face that the action names: no list of
+                      ;; distinct faces, and nothing to remember.
+                      (when (and (= (pack-count packed) arity)
+                                 (remember memory predicate packed))
+                        (log-event memory rule number binding)))
                     nil)))))))
 
 (define-action :cant (action rulebase)
