@@ -16,19 +16,21 @@
     (declare (ignore second minute hour))
     (format nil "~d-~2,'0d-~2,'0d" year month day)))
 
+(defun three-digits (number)
+  "Return NUMBER, above 0, with three digits or more."
+  (cond ((>= number 100) (format nil "~:d" (round number)))
+        ((>= number 10) (format nil "~,1f" number))
+        ((>= number 1) (format nil "~,2f" number))
+        (t (format nil "~,3f" number))))
+
 (defun time-text (seconds)
   "Return SECONDS with three digits and a unit."
   (let ((number (float seconds 1d0)))
     (flet ((text (value unit)
-             (format nil "~,vf ~a" (cond ((>= value 100) 0) ((>= value 10) 1) (t 2)) value unit)))
+             (format nil "~a ~a" (three-digits value) unit)))
       (cond ((>= number 1) (text number "s"))
             ((>= number 1d-3) (text (* number 1d3) "ms"))
             (t (text (* number 1d6) "µs"))))))
-
-(defun ratio-text (ratio)
-  (let ((number (float ratio 1d0)))
-    (format nil "~,vf" (cond ((>= number 100) 0) ((>= number 10) 1) ((>= number 1) 2) (t 3))
-            number)))
 
 (defun print-head (title)
   (format t "~%| ~a | minimum | median | bytes | ratio |~%| --- | --- | --- | --- | --- |~%" title))
@@ -39,7 +41,7 @@
     (format t "| ~a | ~a | ~a | ~:[~;~:*~:d~] | ~a |~%" (figure-name figure)
             (time-text (figure-minimum figure)) (time-text (figure-median figure))
             (and (figure-bytes figure) (round (figure-bytes figure)))
-            (ratio-text (/ (figure-median figure) (figure-median unit)))))
+            (three-digits (float (/ (figure-median figure) (figure-median unit)) 1d0))))
   (finish-output))
 
 (defun plan-figures ()
