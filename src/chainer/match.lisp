@@ -133,16 +133,24 @@ NEXT."
 
 ;;; A walk over facts
 
+(declaim (inline only-face))
+(defun only-face (set)
+  "Return the one face of SET."
+  (declare (type (integer 1 63) set))
+  (the surface (1- (integer-length set))))
+
 (defun compile-walk (clause unbound next)
   "Return a matcher that meets CLAUSE with each fact of its predicate, in each order, and goes on
 with NEXT.  UNBOUND are the variables of CLAUSE that it binds."
   (let* ((predicate (clause-predicate clause))
          (index (predicate-index predicate))
          (start (predicate-start predicate))
+         (only (and (null (rest unbound)) (first unbound)))
          (places (compile-places unbound next))
          (required (remove-if (lambda (term) (member term unbound)) (clause-terms clause)))
          (count (length required)))
-    (declare (fixnum index) (type (unsigned-byte 20) start) (function places))
+    (declare (fixnum index) (type (unsigned-byte 20) start) (function next places)
+             (type (or null (integer 0 5)) only))
     (with-face-set (faces required binding)
       (lambda (memory binding)
         (declare (type memory memory) (type packed binding))
@@ -153,12 +161,14 @@ with NEXT.  UNBOUND are the variables of CLAUSE that it binds."
           (when (= (logcount set) count)
             (loop for i of-type (unsigned-byte 24) from start
                   repeat (aref (memory-counts memory) index)
-                  do (let ((fact (aref facts i)))
+                  do (let* ((fact (aref facts i))
+                            (left (logandc2 (pack-mask fact) set)))
                        (declare (type packed fact))
                        ;; What the fact has of the faces taken is what the clause asks for.
                        (when (= set (logand taken fact))
-                         (funcall places memory binding fact
-                                  (logandc2 (pack-mask fact) set)))))))))))
+                         (if only
+                             (funcall next memory (pack-with binding only (only-face left)))
+                             (funcall places memory binding fact left)))))))))))
 
 (defun compile-places (variables next)
   "Return a function of a memory, a binding, a fact and the set of its faces that are left, as many
@@ -168,8 +178,8 @@ as VARIABLES: it gives them those faces in all orders, and goes on with NEXT."
     (declare (type (integer 0 5) place))
     (if (null (rest variables))
         (lambda (memory binding fact left)
-          (declare (type packed binding) (type (integer 1 63) left) (ignore fact))
-          (funcall next memory (pack-with binding place (the surface (1- (integer-length left))))))
+          (declare (type packed binding) (ignore fact))
+          (funcall next memory (pack-with binding place (only-face left))))
         (let ((further (compile-places (rest variables) next)))
           (declare (function further))
           (lambda (memory binding fact left)
