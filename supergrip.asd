@@ -78,8 +78,29 @@
                (:file "statics")
                (:file "rules")
                (:file "properties")
+               (:file "engines")
                (:file "errors")
                (:file "spoiled")
                (:file "explain")
                (:file "scripts"))
   :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))
+
+(defsystem "supergrip/bench"
+  :description "The benchmark: sbcl --script t/bench/run.lisp."
+  :license "MIT"
+  :depends-on ("supergrip")
+  :pathname "t/"
+  :serial t
+  :components ((:file "oracle")
+               (:module "bench"
+                :serial t
+                :components ((:file "package")
+                             (:file "clock")
+                             (:file "floor")
+                             (:file "bits")
+                             (:file "sessions")
+                             (:file "neighbours")
+                             (:file "growth")
+                             (:file "report")
+                             (:static-file "pencil.clp")
+                             (:static-file "run.lisp")))))

@@ -2,8 +2,9 @@
 ;;;;
 ;;;; Second of two stages.  All numbers live in one array of doubles, the registers: first what
 ;;;; the box and the matching give, then the constants of all forms, then intermediate results.
-;;;; A form becomes a list of small closures, each of which reads two registers and writes one,
-;;;; so that nothing is boxed; a step that was already done in the same list is not done again.
+;;;; A form becomes a list of steps.  A step is an operation, packed in one integer, that reads two
+;;;; registers and writes one, or a function that takes a branch; so nothing is boxed.  A step that
+;;;; was already done in the same list is not done again.
 
 (in-package :supergrip)
 
@@ -28,7 +29,7 @@ the first register that is free, MOST the most that were ever used."
 
 (defun release-registers (layout)
   "Let the next form use the registers of intermediate results again."
-  (setf (layout-most layout) (max (layout-most layout) (layout-top layout) (layout-base layout))
+  (setf (layout-most layout) (max (layout-most layout) (layout-base layout))
         (layout-top layout) (layout-base layout)))
 
 (defun make-registers (layout)
@@ -51,7 +52,15 @@ and by operator and registers; LAYOUT."
 (defun new-register (code)
   (let ((layout (code-layout code)))
     (prog1 (layout-top layout)
-      (incf (layout-top layout)))))
+      (incf (layout-top layout))
+      (setf (layout-most layout) (max (layout-most layout) (layout-top layout))))))
+
+(defmacro with-branch-registers ((code) &body body)
+  "Run BODY, which emits a branch for CODE; the registers that it takes are free again after it."
+  `(let* ((layout (code-layout ,code))
+          (top (layout-top layout)))
+     (prog1 (progn ,@body)
+       (setf (layout-top layout) top))))
 
 (defmacro step-function ((registers) &body body)
   `(lambda (,registers)
@@ -84,51 +93,70 @@ and by operator and registers; LAYOUT."
   (let ((key (list op a b)))
     (or (cdr (assoc key (code-done code) :test #'equal))
         (let ((register (new-register code)))
-          (push (operation-step op a b register) (code-steps code))
+          (push (pack-operation op a b register) (code-steps code))
           (push (cons key register) (code-done code))
           register))))
 
-(defun operation-step (op a b to)
-  "Return a step that stores OP of the registers A and B in the register TO."
+;;; Operations: the number of the operator, and the registers of two operands and of the result.
+
+(deftype operations () '(simple-array (unsigned-byte 62) (*)))
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defparameter +operators+ #(:+ :- :* :/ :min :max :sqrt :expt)))
+
+(defun pack-operation (op a b to)
+  "Return the operation that stores OP of the registers A and B in the register TO."
   (declare (type register a b to))
-  (macrolet ((binary (form)
-               `(step-function (r)
-                  (setf (aref r to) (let ((x (aref r a)) (y (aref r b))) ,form)))))
-    (ecase op
-      (:+ (binary (+ x y)))
-      (:- (binary (- x y)))
-      (:* (binary (* x y)))
-      (:/ (binary (/ x y)))
-      (:min (binary (if (< y x) y x)))
-      (:max (binary (if (> y x) y x)))
-      (:expt (binary (real-power x y)))
-      (:sqrt (step-function (r)
-               (setf (aref r to)
-                     (let ((x (aref r a)))
-                       (if (< x 0d0)
-                           (real-root x)
-                           (sqrt (the (double-float 0d0) x))))))))))
+  (logior (position op +operators+) (ash a 4) (ash b 20) (ash to 36)))
+
+(defun run-operations (operations r)
+  "Do OPERATIONS, in order, on the registers R."
+  (declare (type operations operations) (type registers r))
+  (loop for operation across operations
+        do (symbol-macrolet ((a (aref r (ldb (byte 16 4) operation)))
+                             (b (aref r (ldb (byte 16 20) operation)))
+                             (to (aref r (ldb (byte 16 36) operation))))
+             (let ((x a) (y b))
+               (macrolet ((store (&rest results)
+                            `(ecase (ldb (byte 4 0) operation)
+                               ,@(loop for (op form) in results
+                                       collect `(,(position op +operators+) (setf to ,form))))))
+                 ;; What is called gets A and B: X and Y are never boxed then.
+                 (store (:+ (+ x y))
+                        (:- (- x y))
+                        (:* (* x y))
+                        (:/ (/ x y))
+                        (:min (if (< y x) y x))
+                        (:max (if (> y x) y x))
+                        (:sqrt (if (< x 0d0) (real-root a) (sqrt (the (double-float 0d0) x))))
+                        (:expt (real-power a b))))))))
 
 (defun run-function (code)
   "Return a function of registers that runs the steps of CODE, or NIL if there are none."
-  (let ((steps (reverse (code-steps code))))
-    (case (length steps)
-      (0 nil)
-      (1 (first steps))
-      (t (let ((steps (coerce steps 'simple-vector)))
-           (step-function (r)
-             (loop for step across steps
-                   do (funcall (the function step) r))))))))
+  (labels ((chain (steps)
+             (let* ((end (or (position-if #'functionp steps) (length steps)))
+                    (operations (coerce (subseq steps 0 end) 'operations))
+                    (branch (nth end steps))
+                    (further (and branch (chain (nthcdr (1+ end) steps)))))
+               (declare (type operations operations))
+               (if (null branch)
+                   (step-function (r) (run-operations operations r))
+                   (step-function (r)
+                     (run-operations operations r)
+                     (funcall (the function branch) r)
+                     (funcall (the function further) r))))))
+    (and (code-steps code) (chain (reverse (code-steps code))))))
 
 (defun emit-cond (node code)
   "Emit a COND that gives a number."
   (let ((to (new-register code)))
     (declare (type register to))
     (push (branch-step (loop for (test value) in (node-args node)
-                             collect (let* ((inner (inner-code code))
-                                            (from (emit value inner)))
-                                       (list (emit-test test code) (run-function inner)
-                                             (list from) (list to)))))
+                             collect (with-branch-registers (code)
+                                       (let* ((inner (inner-code code))
+                                              (from (emit value inner)))
+                                         (list (emit-test test code) (run-function inner)
+                                               (list from) (list to))))))
           (code-steps code))
     to))
 
@@ -181,11 +209,13 @@ What it needs that CODE has not computed, it computes itself."
   (let* ((inner (inner-code code))
          (a (emit (first (node-args node)) inner))
          (b (emit (second (node-args node)) inner))
-         (run (or (run-function inner) (step-function (r) (declare (ignore r))))))
-    (declare (type register a b) (function run))
+         (run (run-function inner)))
+    (declare (type register a b) (type (or null function) run))
     (setf (node-registers node) (list a b))
     (macrolet ((comparison (op)
-                 `(step-function (r) (funcall run r) (,op (aref r a) (aref r b)))))
+                 `(step-function (r)
+                    (when run (funcall run r))
+                    (,op (aref r a) (aref r b)))))
       (ecase (node-op node)
         (:< (comparison <))
         (:<= (comparison <=))
@@ -205,10 +235,11 @@ What it needs that CODE has not computed, it computes itself."
     (:cond
      (let ((to (loop repeat 6 collect (new-register code))))
        (push (branch-step (loop for (test value) in (node-args node)
-                                collect (let* ((inner (inner-code code))
-                                               (from (emit-six value inner)))
-                                          (list (emit-test test code) (run-function inner)
-                                                from to))))
+                                collect (with-branch-registers (code)
+                                          (let* ((inner (inner-code code))
+                                                 (from (emit-six value inner)))
+                                            (list (emit-test test code) (run-function inner)
+                                                  from to)))))
              (code-steps code))
        to))))
 

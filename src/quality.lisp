@@ -2,6 +2,9 @@
 
 (in-package :supergrip)
 
+;;; Inline, so that the numbers that they take and give are not boxed.
+(declaim (inline embedded-radius put-load quality-index))
+
 (defun embedded-radius (need have)
   "Return the radius of the largest NEED ellipsoid inside HAVE, and the axis that limits it.
 

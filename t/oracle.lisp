@@ -191,7 +191,9 @@ of (rule . fact), as strings, in the order in which the facts were remembered."
                (return-from oracle-run-rules
                  (list :end end :reason (names reason) :log (reverse log))))
              (remember (rule words faces)
-               (unless (known-p (cons words faces) facts)
+               ;; A variable may have taken a face that the action names: no list then.
+               (unless (or (/= (length faces) (length (remove-duplicates faces)))
+                           (known-p (cons words faces) facts))
                  (setf facts (append facts (list (cons words faces))))
                  (push (names `(,rule ,@words ,@(when faces (list faces)))) log)))
              (act (rule operator arguments bindings)
@@ -573,7 +575,7 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
 (defun oracle-plan (box knowledge &key (gamma 0.5d0))
   "Return the plan for BOX, an alist as in the paper, as a plist.
 
-:VERDICT     :GRASP or :CANT; NIL if the rules ran out without KEEP or CANT
+:VERDICT     :GRASP or :CANT; rules that run out without KEEP or CANT keep the best
 :REASON      the words of the rule that said CANT, else NIL
 :LOG         what the rules remembered, a list of (rule . fact)
 :CANDIDATES  all that was tried, in order, each a plist of :GRASP, :MATCHING, :OUTCOME, :OFFSET,
@@ -594,8 +596,8 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
                             (initial-facts box (knowledge-gripper knowledge))
                             #'try)
         (let* ((candidates (reverse candidates))
-               (best (when (eq end :keep) (best-candidate candidates))))
-          (list :verdict (cond (best :grasp) (end :cant))
+               (best (unless (eq end :cant) (best-candidate candidates))))
+          (list :verdict (if best :grasp :cant)
                 :reason reason
                 :log log
                 :candidates candidates

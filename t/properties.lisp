@@ -48,10 +48,10 @@
                  (return-from candidate-difference "a contact on another face"))))
     nil))
 
-(defun plan-difference (box)
-  "Return what of the plan for BOX differs from the definitions, or NIL."
-  (let* ((plan (supergrip::plan box))
-         (oracle (supergrip-oracle:oracle-plan box *oracle*))
+(defun plan-difference (box &optional (knowledge supergrip:*knowledge*) (definitions *oracle*))
+  "Return what of the plan for BOX by KNOWLEDGE differs from the DEFINITIONS, or NIL."
+  (let* ((plan (supergrip::plan box :knowledge knowledge))
+         (oracle (supergrip-oracle:oracle-plan box definitions))
          (best (getf oracle :best))
          (candidates (supergrip:plan-candidates plan)))
     (cond ((not (eq (supergrip:plan-verdict plan) (getf oracle :verdict))) "the verdict")

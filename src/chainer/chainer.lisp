@@ -10,6 +10,7 @@ WORDS what it said, as strings."
 ;;; The log.  An event is one integer: the numbers of the rule and of the action, and the binding
 ;;; under which the action was done; so everything about it can be told later.
 
+(declaim (inline log-event))
 (defun log-event (memory rule action binding)
   "Note in the log of MEMORY that RULE did its ACTION, a number, under BINDING."
   (declare (type memory memory) (type packed binding) (type (unsigned-byte 8) action))
@@ -74,10 +75,15 @@ second.  Returns the STOP of the action that ended the run, or NIL if none did."
           (setf (action-predicate action) predicate
                 (action-terms action) terms
                 (action-function action)
-                (let ((rule *rule*) (number (action-number action)))
+                (let ((rule *rule*) (number (action-number action))
+                      (arity (predicate-arity predicate)))
                   (lambda (memory binding)
-                    (when (remember memory predicate (instantiate terms binding))
-                      (log-event memory rule number binding))
+                    (let ((packed (instantiate terms binding)))
+                      ;; A variable may have taken a face that the action names: no list of
+                      ;; distinct faces, and nothing to remember.
+                      (when (and (= (pack-count packed) arity)
+                                 (remember memory predicate packed))
+                        (log-event memory rule number binding)))
                     nil)))))))
 
 (define-action :cant (action rulebase)

@@ -61,6 +61,7 @@ whatever the actions of the lower level need."
   "True if MEMORY holds that PREDICATE is true of the faces of PACKED, in any order."
   (known-p memory (predicate-index predicate) (pack-mask packed)))
 
+(declaim (inline remember))
 (defun remember (memory predicate packed)
   "Put into MEMORY that PREDICATE is true of the faces of PACKED.  True if it was not there."
   (declare (type memory memory) (type predicate predicate) (type packed packed)

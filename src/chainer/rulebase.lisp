@@ -45,7 +45,7 @@ level are compiled against."
 
 ;;; Terms: a variable is its number, 0 to 5; a face f is the number -1-f.
 
-(declaim (inline term-variable-p term-value))
+(declaim (inline term-variable-p term-value instantiate))
 (defun term-variable-p (term)
   "True if TERM is a variable, not a face."
   (declare (fixnum term))
@@ -63,7 +63,7 @@ level are compiled against."
   (let ((packed 0))
     (declare (type packed packed))
     (loop for term in terms
-          for place of-type (integer 0 5) from 0
+          for place of-type (integer 0 6) from 0
           do (setf packed (pack-with packed place (term-value term binding))))
     packed))
 

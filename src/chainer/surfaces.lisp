@@ -37,7 +37,7 @@
   (declare (type surface surface))
   (if (logtest surface 1) 1 -1))
 
-(declaim (inline pack-mask pack-ref pack-with))
+(declaim (inline pack-mask pack-ref pack-with pack-count))
 (defun pack-mask (packed)
   "Return the set of the faces of PACKED, one bit each."
   (declare (type packed packed))
@@ -55,6 +55,7 @@
 
 (defun pack-count (packed)
   "Return how many faces PACKED holds."
+  (declare (type packed packed))
   (logcount (pack-mask packed)))
 
 (defun pack (surfaces)

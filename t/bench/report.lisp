@@ -1,0 +1,107 @@
+;;;; report.lisp -- measures everything and prints it in tables, as the README has them.
+
+(in-package :supergrip-bench)
+
+(defun machine ()
+  "Return the processor's name, how many there are, and the Lisp."
+  (let ((models (ignore-errors
+                 (loop for line in (uiop:read-file-lines "/proc/cpuinfo")
+                       when (eql 0 (search "model name" line))
+                         collect (string-trim " " (subseq line (1+ (position #\: line))))))))
+    (format nil "~a, ~d processor~:p, ~a ~a" (or (first models) (machine-type)) (length models)
+            (lisp-implementation-type) (lisp-implementation-version))))
+
+(defun today ()
+  (multiple-value-bind (second minute hour day month year) (get-decoded-time)
+    (declare (ignore second minute hour))
+    (format nil "~d-~2,'0d-~2,'0d" year month day)))
+
+(defun three-digits (number)
+  "Return NUMBER, above 0, with three digits or more."
+  (cond ((>= number 100) (format nil "~:d" (round number)))
+        ((>= number 10) (format nil "~,1f" number))
+        ((>= number 1) (format nil "~,2f" number))
+        (t (format nil "~,3f" number))))
+
+(defun time-text (seconds)
+  "Return SECONDS with three digits and a unit."
+  (let ((number (float seconds 1d0)))
+    (flet ((text (value unit)
+             (format nil "~a ~a" (three-digits value) unit)))
+      (cond ((>= number 1) (text number "s"))
+            ((>= number 1d-3) (text (* number 1d3) "ms"))
+            (t (text (* number 1d6) "µs"))))))
+
+(defun print-head (title)
+  (format t "~%| ~a | minimum | median | bytes | ratio |~%| --- | --- | --- | --- | --- |~%" title))
+
+(defun print-figures (figures &optional (unit (first figures)))
+  "Print a line for each of FIGURES; the ratio is that of its minimum to the minimum of UNIT, which
+a busy machine disturbs least."
+  (dolist (figure figures)
+    (format t "| ~a | ~a | ~a | ~:[~;~:*~:d~] | ~a |~%" (figure-name figure)
+            (time-text (figure-minimum figure)) (time-text (figure-median figure))
+            (and (figure-bytes figure) (round (figure-bytes figure)))
+            (three-digits (float (/ (figure-minimum figure) (figure-minimum unit)) 1d0))))
+  (finish-output))
+
+(defun plan-figures ()
+  (let ((task (box-task *box*)) (out (new-six)))
+    (measure-together
+     '("whole plan" "the same by the floor" "the same by the reference engine")
+     (list (lambda () (supergrip:plan *box*))
+           (lambda () (pencil-qualities task out))
+           (lambda () (supergrip-oracle:oracle-plan *pencil* *oracle*))))))
+
+(defun rule-figures ()
+  (let ((rulebase (rules-alone (shipped-rules))))
+    (measure-together
+     '("rule part" "the same by bit code" "the same by the reference engine")
+     (list (lambda () (run-rules-alone rulebase *box*))
+           (lambda () (bit-rules *box*))
+           (oracle-rules-function)))))
+
+(defun part-figures ()
+  (let ((plan (supergrip:plan *box*)))
+    (measure-together
+     '("TRY part, six candidates" "one form, a WRENCH"
+       "reading and preparing rules and grasps")
+     (list (try-function plan) (form-function plan) #'supergrip:load-knowledge))))
+
+(defun print-sessions ()
+  (print-head "pencil session")
+  (let ((plan (plan-figures)))
+    (print-figures plan)
+    (print-figures (part-figures) (first plan)))
+  (let ((rules (rule-figures))
+        (clips (clips-figure)))
+    (print-figures rules)
+    (if clips
+        (print-figures (list clips) (first rules))
+        (format t "~%CLIPS is not installed: apt-get install clips~2%")))
+  (let ((*batches* (min *batches* 7)))
+    (print-figures (list (start-up-figure)))))
+
+(defun print-growth (boxes)
+  (print-head "growth, whole plan of the pencil unless said")
+  (print-figures (rules-growth "rules that can't fire," #'barred-copy-of-rules))
+  (print-figures (rules-growth "rules that fire," #'copy-of-rules))
+  (let ((grasps (grasps-growth)))
+    (print-figures (subseq grasps 0 2))
+    (print-figures (subseq grasps 2)))
+  (let ((figures (boxes-growth boxes)))
+    (print-figures (remove-if #'numberp figures))
+    (print-figures (threads-growth (first (last boxes 2))))
+    (format t "~%Memory in use after each number of boxes, MB: ~{~a~^, ~}~%"
+            (remove-if-not #'numberp figures))))
+
+(defun run-benchmark (&key quick)
+  "Measure all, print tables.  QUICK: short batches, for a try of the benchmark itself."
+  (let ((*batches* (if quick 3 15))
+        (*batch-seconds* (if quick 1/50 1/10)))
+    (check-floor)
+    (check-bits (random-boxes 1000 5))
+    (format t "~a, ~a~%Times are of one call; a ratio is that of minima, to the first line of ~
+               its group.~%" (today) (machine))
+    (print-sessions)
+    (print-growth (if quick '(1000 10000) '(1000 10000 100000 1000000)))))

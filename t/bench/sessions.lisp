@@ -1,0 +1,104 @@
+;;;; sessions.lisp -- the pencil session and its parts, ready to be measured; and what must be
+;;;; equal before anything is.
+
+(in-package :supergrip-bench)
+
+(defparameter *pencil*
+  '((size 12 2 2) (weight 0.2d0) (u 0.8d0) (v 0.2d0) (constrained z2 x1)
+    (force-needed (1 0.8d0 0.8d0 0.3d0 1 1)) (velocity-needed (0 0.8d0 0.8d0 0 0.8d0 0.8d0)))
+  "The box of the paper's session.")
+
+(defvar *box* (supergrip:parse-box *pencil*))
+
+(defun project-file (name)
+  (asdf:system-relative-pathname "supergrip" name))
+
+;;; The rule part: the shipped rules with PASS, which notes its binding in the log, for TRY
+
+(supergrip-chainer:define-action :pass (action rulebase)
+  (let ((rule supergrip-chainer:*rule*)
+        (number (supergrip-chainer::action-number action)))
+    (setf (supergrip-chainer:action-function action)
+          (lambda (memory binding)
+            (supergrip-chainer:log-event memory rule number binding)
+            nil))))
+
+(defun without-try (rule)
+  "Return the form RULE with PASS in the place of TRY."
+  (destructuring-bind (operator name antecedent (then . actions)) rule
+    (list operator name antecedent
+          (cons then (loop for (verb . operands) in actions
+                           collect (cons (if (string= verb "TRY") 'pass verb) operands))))))
+
+(defun rules-alone (forms)
+  "Return the rule base of the rule FORMS without TRY."
+  (supergrip-chainer:build-rulebase (mapcar #'without-try forms) supergrip::+inputs+))
+
+(defun shipped-rules ()
+  (values (supergrip::read-data-file (project-file "rules.lisp"))))
+
+(defun run-rules-alone (rulebase box)
+  "Run RULEBASE on BOX.  Returns the verdict, and the log, the newest event first."
+  (let* ((knowledge supergrip:*knowledge*)
+         (predicates (supergrip-chainer:rulebase-predicates rulebase))
+         (memory (supergrip-chainer:make-memory predicates)))
+    (supergrip::assert-box memory predicates box
+                           (supergrip::knowledge-finger-width knowledge)
+                           (supergrip::knowledge-finger-spread knowledge)
+                           (supergrip::knowledge-dist-pinch knowledge)
+                           (supergrip::knowledge-slippery-u knowledge))
+    (let ((stop (supergrip-chainer:run-rules rulebase memory)))
+      (values (and stop (supergrip-chainer:stop-verdict stop))
+              (supergrip-chainer:memory-log memory)))))
+
+;;; The TRY part, and one form
+
+(defun try-function (plan)
+  "Return a function that tries the candidates of PLAN again."
+  (let* ((graspbase (supergrip::knowledge-graspbase (supergrip:plan-knowledge plan)))
+         (tries (loop for candidate in (supergrip:plan-candidates plan)
+                      collect (cons (supergrip::%candidate-grasp candidate)
+                                    (supergrip::%candidate-matching candidate)))))
+    (lambda ()
+      (let ((attempt (supergrip::make-attempt (supergrip:plan-box plan) graspbase 0.5d0)))
+        (loop for (grasp . matching) in tries
+              do (supergrip::try-matching attempt grasp matching))))))
+
+(defun form-function (plan)
+  "Return a function that evaluates the WRENCH of the first candidate of PLAN."
+  (let* ((candidate (first (supergrip:plan-candidates plan)))
+         (registers (supergrip::attempt-registers (supergrip::replay candidate plan)))
+         (program (supergrip::grasp-wrench (supergrip::%candidate-grasp candidate))))
+    (lambda () (supergrip::run-program program registers))))
+
+;;; The reference engine, of the tests
+
+(defvar *oracle*
+  (supergrip-oracle:load-oracle-knowledge (project-file "rules.lisp")
+                                          (project-file "grasps.lisp")))
+
+(defun oracle-rules-function ()
+  "Return a function that runs the rules of the reference engine on the pencil, TRY left out."
+  (let ((rules (supergrip-oracle::knowledge-rules *oracle*)))
+    (lambda ()
+      (supergrip-oracle:oracle-run-rules
+       rules (supergrip-oracle:oracle-initial-facts *pencil* *oracle*) (constantly nil)))))
+
+;;; What must be equal
+
+(defun check-floor ()
+  "Signal an error unless the floor gives the six qualities of the session."
+  (let ((ours (mapcar #'supergrip:candidate-quality
+                      (supergrip:plan-candidates (supergrip:plan *box*))))
+        (floor (coerce (pencil-qualities (box-task *box*) (new-six)) 'list)))
+    (unless (and (= 6 (length ours))
+                 (every (lambda (a b) (< (abs (- a b)) 1d-12)) ours floor))
+      (error "the floor gives ~a, the plan ~a" floor ours))))
+
+(defun check-bits (boxes)
+  "Signal an error unless the bit code gives the log of the rules on all BOXES."
+  (let ((rulebase (rules-alone (shipped-rules))))
+    (dolist (box boxes)
+      (unless (equal (multiple-value-list (bit-rules box))
+                     (multiple-value-list (run-rules-alone rulebase box)))
+        (error "the bit code and the rules differ on ~a" box)))))

@@ -1,0 +1,132 @@
+;;;; engines.lisp -- the engine and the reference engine agree on random rule bases, too.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+;;; Random rule bases.  They are valid: each predicate keeps its arity, each list holds distinct
+;;; surfaces, actions use variables that a clause has, and the last rule remembers everything that
+;;; a clause may ask for.
+
+(defparameter *given-predicates*
+  '((opposed 2) (small 2) (narrow 2) (large 2) (constrained 1) (slippery 0)))
+
+(defparameter *six-variables* '(s1 s2 s3 s4 s5 s6))
+(defparameter *six-faces* '(x1 x2 y1 y2 z1 z2))
+
+(defun random-element (list state)
+  (nth (random (length list) state) list))
+
+(defun chance (percent state)
+  (< (random 100 state) percent))
+
+(defun random-surfaces (count variables state)
+  "Return COUNT distinct surfaces, most of them from VARIABLES, as far as these reach."
+  (loop with free = (shuffle variables state) and faces = (shuffle *six-faces* state)
+        repeat count
+        collect (if (and free (chance 85 state)) (pop free) (pop faces))))
+
+(defun sentence-of (predicate surfaces)
+  (destructuring-bind (name arity) predicate
+    (cons name (and (plusp arity) (list (subseq surfaces 0 arity))))))
+
+(defun random-clause (predicates state)
+  (let* ((predicate (random-element predicates state))
+         (sentence (sentence-of predicate
+                                (random-surfaces (second predicate) *six-variables* state))))
+    (if (chance 35 state) (cons 'not sentence) sentence)))
+
+(defun variables-in (clauses)
+  (remove-if-not (lambda (variable)
+                   (some (lambda (clause) (member variable (first (last clause)))) clauses))
+                 *six-variables*))
+
+(defun list-clauses (clauses)
+  "Return those of CLAUSES that end in a list."
+  (remove-if-not (lambda (clause) (consp (first (last clause)))) clauses))
+
+(defun random-suggestion (variables state)
+  "Return the operands of a TRY after the grasp: nothing, or a matching of which most is open."
+  (unless (chance 40 state)
+    (list (loop for surface in (random-surfaces 6 variables state)
+                collect (if (chance 70 state) '? surface)))))
+
+(defun random-action (predicates variables state)
+  (if (chance 70 state)
+      (let ((predicate (random-element predicates state)))
+        `(remember ,@(sentence-of predicate (random-surfaces 3 variables state))))
+      (let ((grasp (random-element (supergrip:knowledge-grasps supergrip:*knowledge*) state)))
+        `(try ,(make-symbol (supergrip::grasp-name grasp))
+              ,@(random-suggestion variables state)))))
+
+(defun random-rule (number predicates state)
+  (let* ((clauses (loop repeat (1+ (random 4 state))
+                        collect (random-clause (append *given-predicates* predicates) state)))
+         (variables (variables-in (list-clauses clauses))))
+    `(rule ,(make-symbol (format nil "R~d" number))
+           (if ,@clauses)
+           (then ,@(loop repeat (1+ (random 3 state))
+                         collect (random-action predicates variables state))
+                 ,@(when (chance 4 state) '((cant be done)))
+                 ,@(when (chance 4 state) '((keep best)))))))
+
+(defun random-rules (state)
+  "Return the forms of a random rule base."
+  (let ((predicates (loop for name in '(p q r tt uu) collect (list name (random 4 state)))))
+    (append (loop for number from 1 to (+ 3 (random 8 state))
+                  collect (random-rule number predicates state))
+            `((rule ,(make-symbol "LAST")
+                    (if (opposed (s1 s2)) (opposed (s3 s4)))
+                    (then ,@(loop for predicate in predicates
+                                  collect `(remember ,@(sentence-of predicate '(s1 s2 s3))))
+                          ,@(when (chance 50 state) '((keep best)))))))))
+
+(defun knowledge-of-rules (rules)
+  "Return the knowledge of the forms RULES, written and read again, and the shipped grasps."
+  (multiple-value-bind (knowledge problems)
+      (supergrip::build-knowledge
+       (rule-forms (with-standard-io-syntax (format nil "~{~:a~%~}" rules))) nil "rules"
+       (supergrip::read-data-file (project-file "grasps.lisp")) nil "grasps")
+    (is (null problems) "~s~%~{~a~%~}" rules problems)
+    knowledge))
+
+;;; What both know at the end
+
+(defun oracle-assertions (box oracle)
+  "Return what the reference engine knows of BOX in the end, as PLAN-ASSERTIONS has it, in no
+order of predicates."
+  (let ((facts (append (supergrip-oracle::names
+                        (supergrip-oracle:oracle-initial-facts box oracle))
+                       (mapcar #'rest (getf (supergrip-oracle:oracle-plan box oracle) :log))))
+        (assertions '()))
+    (dolist (fact facts (reverse assertions))
+      (let* ((words (remove-if #'consp fact))
+             (entry (find words assertions :key (lambda (entry) (remove-if #'consp entry))
+                                           :test #'equal)))
+        (if entry
+            (nconc entry (remove-if-not #'consp fact))
+            (push (copy-list fact) assertions))))))
+
+(defun assertions-differ-p (plan box oracle)
+  (set-exclusive-or (supergrip:plan-assertions plan) (oracle-assertions box oracle)
+                    :test #'equal))
+
+(test both-engines-agree-on-random-rules
+  (let ((state (sb-ext:seed-random-state 200))
+        (fired 0))
+    (format t "~&   200 random rule bases, seed 200~%")
+    (dotimes (i 200)
+      (let* ((rules (random-rules state))
+             (knowledge (knowledge-of-rules rules))
+             (oracle (supergrip-oracle:with-oracle-rules rules *oracle*))
+             (boxes (loop repeat 8 collect (random-box state))))
+        (dolist (box boxes)
+          (incf fired (length (log-facts (supergrip::plan box :knowledge knowledge)))))
+        (is (null (first-fault
+                   (lambda (box)
+                     (or (plan-difference box knowledge oracle)
+                         (assertions-differ-p (supergrip::plan box :knowledge knowledge)
+                                              box oracle)))
+                   boxes))
+            "~{~s~%~}" rules)))
+    ;; Rules that never fire would agree about nothing.
+    (is (> fired 10000) "only ~d facts were remembered" fired)))
