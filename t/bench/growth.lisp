@@ -7,13 +7,14 @@
 (defun knowledge-of (rules grasps)
   "Return the knowledge of the forms RULES and GRASPS, which must be right."
   (multiple-value-bind (knowledge problems)
-      (supergrip::build-knowledge rules nil "rules" grasps nil "grasps")
-    (when problems
+      (supergrip::build-knowledge (supergrip::make-data-file :name "rules" :forms rules)
+                                  (supergrip::make-data-file :name "grasps" :forms grasps))
+    (when (supergrip-data:errors-in problems)
       (error "~{~a~%~}" problems))
     knowledge))
 
 (defun shipped-grasps ()
-  (values (supergrip::read-data-file (project-file "grasps.lisp"))))
+  (supergrip::data-file-forms (supergrip::read-data-file (project-file "grasps.lisp"))))
 
 (defun renamed (word number)
   "Return WORD with NUMBER at its end."
