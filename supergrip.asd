@@ -21,7 +21,15 @@
                (:file "failure")
                (:file "transcript")
                (:file "repl")
-               (:static-file "boot.lisp"))
+               (:file "sbcl")
+               (:file "input")
+               (:file "output")
+               (:file "jsonbox")
+               (:file "record")
+               (:file "batch")
+               (:file "main")
+               (:static-file "boot.lisp")
+               (:static-file "build.lisp"))
   :in-order-to ((test-op (test-op "supergrip/test"))))
 
 (defsystem "supergrip/chainer"
@@ -36,7 +44,8 @@
                              (:file "conditions")
                              (:file "names")
                              (:file "numbers")
-                             (:file "reader")))
+                             (:file "reader")
+                             (:file "json")))
                (:module "chainer"
                 :serial t
                 :components ((:file "package")

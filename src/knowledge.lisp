@@ -56,12 +56,28 @@ LINES are tables from form to line, or NIL.  What is wrong is left out."
 
 ;;; Files
 
+(defvar *kept-files* '()
+  "In an executable, which may have left its directory, what READ-DATA-FILE returned for each file
+that is shipped: a list of (NAME FORMS LINES PROBLEMS).")
+
+(defun keep-shipped-files ()
+  "Keep the shipped rules and grasps in the image."
+  (setf *kept-files* (loop for name in '("rules.lisp" "grasps.lisp")
+                           collect (cons name (multiple-value-list
+                                               (read-data-file (shipped-file name)))))))
+
 (defun shipped-file (name)
-  "Return the file NAME of SUPER-GRIP itself."
-  (asdf:system-relative-pathname "supergrip" name))
+  "Return the file NAME of SUPER-GRIP itself, or the entry of *KEPT-FILES* that stands for it."
+  (or (assoc name *kept-files* :test #'string=)
+      (asdf:system-relative-pathname "supergrip" name)))
 
 (defun read-data-file (file)
   "Return the forms of FILE, a table from form to line, and a list of problems."
+  (if (consp file)
+      (values-list (rest file))
+      (read-file-forms file)))
+
+(defun read-file-forms (file)
   (handler-case
       (with-open-file (in file :external-format '(:utf-8 :replacement #\ufffd))
         (multiple-value-bind (forms lines)
@@ -75,11 +91,13 @@ LINES are tables from form to line, or NIL.  What is wrong is left out."
       (values '() nil (list (make-file-problem file "this file can't be read"))))))
 
 (defun make-file-problem (file text)
-  (supergrip-data::make-problem :file (report-name file) :text text))
+  (make-problem :file (report-name file) :text text))
 
 (defun report-name (file)
   "Return the name of FILE as reports give it."
-  (file-namestring file))
+  (if (consp file)
+      (first file)
+      (file-namestring file)))
 
 (defun read-knowledge (rules grasps)
   "Return the knowledge of the files RULES and GRASPS, and the list of all problems."

@@ -13,7 +13,8 @@
 
 (defstruct (source (:constructor make-source (buffer end &key refill name)))
   "Where characters come from.  REFILL is NIL or a function without arguments that returns the
-next buffer and its end, or NIL at the end."
+next buffer, its end and, if that is not 0, the place where its characters begin; or NIL at the
+end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an error was found."
   (buffer "" :type (simple-array character (*)))
   (position 0 :type fixnum)
   (end 0 :type fixnum)
@@ -24,6 +25,8 @@ next buffer and its end, or NIL at the end."
   (line-offset 0 :type fixnum)          ; of the current line's first character
   (record-offset 0 :type fixnum)        ; of the current record's first character
   (record-start-line 1 :type fixnum)
+  (depth 0 :type fixnum)                ; how many lists are open
+  (inside nil :type symbol)
   (lines nil)                           ; NIL or a table from list to line
   (token (make-string 128) :type (simple-array character (*))))
 
@@ -62,13 +65,14 @@ next buffer and its end, or NIL at the end."
 (defun refill (source)
   "Get more characters.  Returns NIL at the end of the input."
   (when (source-refill source)
-    (multiple-value-bind (buffer end) (funcall (source-refill source))
+    (multiple-value-bind (buffer end start) (funcall (source-refill source))
       (when buffer
-        (incf (source-offset source) (source-end source))
-        (setf (source-buffer source) buffer
-              (source-position source) 0
-              (source-end source) end)
-        t))))
+        (let ((start (or start 0)))
+          (incf (source-offset source) (- (source-end source) start))
+          (setf (source-buffer source) buffer
+                (source-position source) start
+                (source-end source) end)
+          t)))))
 
 (declaim (inline peek next))
 (defun peek (source)
@@ -117,10 +121,12 @@ next buffer and its end, or NIL at the end."
         do (cond ((null character) (return nil))
                  ((blankp character) (next source))
                  ((char= character #\;)
+                  (setf (source-inside source) :comment)
                   (loop for c = (peek source)
                         while (and c (char/= c #\Newline))
                         do (next source)
-                           (check-size source)))
+                           (check-size source))
+                  (setf (source-inside source) nil))
                  (t (return character)))
            (check-size source)))
 
@@ -134,18 +140,25 @@ next buffer and its end, or NIL at the end."
   "Read the next outermost form of SOURCE and return it, or (END-OF-DATA).
 Names become symbols that are to be compared by their letters (NAME=), in upper case; numbers
 integers, ratios or doubles; 'X becomes (QUOTE X).  Signals a SYNTAX-ERROR."
+  (if (skip-to-record source)
+      (read-form source 0)
+      (end-of-data)))
+
+(defun skip-to-record (source)
+  "Skip white space and comments of any length; return the first character of the next record, or
+NIL at the end."
   (start-record source)
   (loop for character = (peek source)
         while (and character (or (blankp character) (char= character #\;)))
         do (skip-line-blanks source)
            (start-record source))
-  (if (peek source)
-      (read-form source 0)
-      (end-of-data)))
+  (peek source))
 
 (defun start-record (source)
   (setf (source-record-offset source) (+ (source-offset source) (source-position source))
-        (source-record-start-line source) (source-line source)))
+        (source-record-start-line source) (source-line source)
+        (source-depth source) 0
+        (source-inside source) nil))
 
 (defun skip-line-blanks (source)
   "Skip one blank character, or a comment of any length."
@@ -179,11 +192,13 @@ integers, ratios or doubles; 'X becomes (QUOTE X).  Signals a SYNTAX-ERROR."
          (head (list nil))
          (tail head))
     (next source)
+    (incf (source-depth source))
     (loop for character = (skip-blanks source)
           do (cond ((null character)
                     (fail-at source line column "this parenthesis is never closed"))
                    ((char= character #\))
                     (next source)
+                    (decf (source-depth source))
                     (return))
                    (t (setf (cdr tail) (list (read-form source depth))
                             tail (cdr tail)))))
@@ -205,6 +220,7 @@ integers, ratios or doubles; 'X becomes (QUOTE X).  Signals a SYNTAX-ERROR."
         (count 0))
     (declare (fixnum count))
     (next source)
+    (setf (source-inside source) :string)
     (loop
       (let ((character (peek source)))
         (when (null character)
@@ -212,7 +228,8 @@ integers, ratios or doubles; 'X becomes (QUOTE X).  Signals a SYNTAX-ERROR."
         (next source)
         (check-size source)
         (case character
-          (#\" (return (subseq (source-token source) 0 count)))
+          (#\" (setf (source-inside source) nil)
+           (return (subseq (source-token source) 0 count)))
           (#\\ (setf character (peek source))
            (unless (member character '(#\" #\\))
              (fail source "in a string, \\ stands only before \\ or \""))
@@ -287,6 +304,43 @@ integers, ratios or doubles; 'X becomes (QUOTE X).  Signals a SYNTAX-ERROR."
                   until (eq form (end-of-data))
                   collect form)
             lines)))
+
+;;; Going on after an error
+
+(defun skip-record (source)
+  "Skip what is left of a record in which READ-DATUM has found an error: as far as the parenthesis
+that closes it or, outside all parentheses, as far as the next one or the end of the line."
+  (loop for character = (peek source)
+        while character
+        until (and (zerop (source-depth source)) (null (source-inside source))
+                   (char= character #\())
+        do (next source)
+           (when (skip-character source character)
+             (return))))
+
+(defun skip-character (source character)
+  "Note what CHARACTER, just skipped, opens or closes; true if it ends the record."
+  (case (source-inside source)
+    (:string (case character
+               (#\\ (when (peek source) (next source)))
+               (#\" (setf (source-inside source) nil)))
+     nil)
+    (t (case character
+         (#\Newline (setf (source-inside source) nil)
+          (zerop (source-depth source)))
+         (t (unless (source-inside source)
+              (skip-delimiter source character)))))))
+
+(defun skip-delimiter (source character)
+  (case character
+    (#\" (setf (source-inside source) :string)
+     nil)
+    (#\; (setf (source-inside source) :comment)
+     nil)
+    (#\( (incf (source-depth source))
+     nil)
+    (#\) (and (plusp (source-depth source))
+              (zerop (decf (source-depth source)))))))
 
 ;;; Forms that come from the Lisp reader
 
