@@ -170,10 +170,22 @@ with the figures.  NIL if it is possible."
 (defparameter +steps+ '(:conditions :offset :fingers :open :lifting :possible)
   "The steps of TRY, in order.")
 
-(defun shortfall (candidate plan)
+(defun friction-shortfall (grasp registers least)
+  "Return by how much the friction in REGISTERS misses what closes GRASP, relative; 1 if nothing
+does, or if it is no less than LEAST, unless that is NIL."
+  (let* ((u (aref registers +u+))
+         (needed (and (or (null least)
+                          ;; One look here saves most of the searches.
+                          (closed-at-p grasp registers (/ u (- 1 (- least +tie+)))))
+                      (progn (setf (aref registers +u+) u)
+                             (closing-friction grasp registers)))))
+    (if needed (- 1 (/ u needed)) 1)))
+
+(defun shortfall (candidate plan attempt least)
   "Return by how much CANDIDATE of PLAN missed the step that it failed: 0 to 1, relative; 1 where
-that can't be said."
-  (let ((attempt (replay candidate plan)))
+that can't be said, or if it is no less than LEAST.  ATTEMPT, at the box of PLAN, is used to replay
+it."
+  (let ((attempt (replay candidate plan attempt)))
     (case (candidate-outcome candidate)
       (:conditions
        (let ((node (failing-condition candidate attempt)))
@@ -183,11 +195,8 @@ that can't be said."
                                                (node-registers node))
                (if (= a b) 0 (/ (abs (- a b)) (max a b))))
              1)))
-      (:open
-       (let* ((u (aref (attempt-registers attempt) +u+))
-              (needed (closing-friction (%candidate-grasp candidate)
-                                        (copy-seq (attempt-registers attempt)))))
-         (if needed (- 1 (/ u needed)) 1)))
+      (:open (friction-shortfall (%candidate-grasp candidate)
+                                 (copy-seq (attempt-registers attempt)) least))
       (:lifting (- 1 (/ (nth-value 1 (worst-load attempt)))))
       (t 1))))
 
@@ -196,10 +205,11 @@ that can't be said."
   (let* ((candidates (plan-candidates plan))
          (step (find-if (lambda (step) (find step candidates :key #'candidate-outcome))
                         (reverse +steps+)))
+         (attempt (new-attempt plan))
          (best nil) (least nil))
     (dolist (candidate candidates best)
       (when (eq step (candidate-outcome candidate))
-        (let ((shortfall (shortfall candidate plan)))
+        (let ((shortfall (shortfall candidate plan attempt least)))
           (when (or (null least) (< shortfall (- least +tie+)))
             (setf best candidate least shortfall)))))))
 
