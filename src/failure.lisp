@@ -131,11 +131,12 @@
          (u (aref registers +u+)))
     (cond ((not (program-value-p (grasp-wrench grasp) registers)) "a form of WRENCH has no value")
           ((closed-at-p grasp registers u) "a form of TWIST, or the index, has no value in range")
-          ((closing-friction grasp (copy-seq (attempt-registers attempt)))
-           (format nil "open: the contacts don't close on this shape; needs u > ~a, has ~a"
-                   (figure (closing-friction grasp (copy-seq (attempt-registers attempt))))
-                   (figure u)))
-          (t "open: the contacts don't close on this shape with any friction"))))
+          (t
+           (let ((needed (closing-friction grasp registers)))
+             (if needed
+                 (format nil "open: the contacts don't close on this shape; needs u > ~a, has ~a"
+                         (figure needed) (figure u))
+                 "open: the contacts don't close on this shape with any friction"))))))
 
 (defun worst-load (attempt)
   "Return the axis on which the load exceeds what the grasp bears by most, and the ratio."

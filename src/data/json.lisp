@@ -129,7 +129,7 @@ WHAT names it for the reports."
         (case character
           (#\" (setf (source-inside source) nil)
            (let ((text (subseq (source-token source) 0 count)))
-             (return (if (some #'surrogatep text) (join-surrogates text) text))))
+             (return (if (find-if #'surrogatep text) (join-surrogates text) text))))
           (#\\ (setf character (read-escape source))))
         (setf count (push-token source character count))))))
 
@@ -184,6 +184,12 @@ A surrogate alone, which is no character, becomes U+FFFD, as bytes that are not 
 
 ;;; Numbers and literals
 
+(declaim (inline json-token-character-p))
+(defun json-token-character-p (character)
+  (or (char<= #\0 character #\9) (char<= #\a character #\z) (char<= #\A character #\Z)
+      (char= character #\+) (char= character #\-) (char= character #\.)
+      (char= character #\_)))
+
 (defun read-json-token (source)
   "Read a number, true, false or null."
   (let ((line (source-line source))
@@ -203,10 +209,6 @@ A surrogate alone, which is no character, becomes U+FFFD, as bytes that are not 
             (t (fail-at source line column
                         "~a is not JSON; 12, -0.5, 1e-3, \"a name\", true, false and null are"
                         (subseq token 0 (min count 24))))))))
-
-(defun json-token-character-p (character)
-  (or (char<= #\0 character #\9) (char<= #\a character #\z) (char<= #\A character #\Z)
-      (find character "+-._")))
 
 (defun find-literal (token count)
   (find-if (lambda (literal)

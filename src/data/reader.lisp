@@ -106,9 +106,17 @@ end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an erro
   (or (blankp character) (char= character #\() (char= character #\)) (char= character #\')
       (char= character #\") (char= character #\;)))
 
+(declaim (inline name-character-p))
 (defun name-character-p (character)
-  (or (char<= #\a character #\z) (char<= #\A character #\Z) (char<= #\0 character #\9)
-      (find character "-+*/<>=?!._%&$")))
+  (let ((code (char-code character)))
+    (and (< code 128)
+         (= 1 (sbit (load-time-value
+                     (let ((bits (make-array 128 :element-type 'bit :initial-element 0)))
+                       (dotimes (code 128 bits)
+                         (when (or (alphanumericp (code-char code))
+                                   (find (code-char code) "-+*/<>=?!._%&$"))
+                           (setf (sbit bits code) 1)))))
+                    code)))))
 
 (defun character-description (character)
   (if (and (graphic-char-p character) (char/= character #\Space))
@@ -269,7 +277,7 @@ NIL at the end."
   (declare (type (simple-array character (*)) token) (fixnum count))
   (flet ((digit-at (i) (and (< i count) (char<= #\0 (schar token i) #\9))))
     (or (digit-at 0)
-        (let ((i (if (find (schar token 0) "+-") 1 0)))
+        (let ((i (if (signp (schar token 0)) 1 0)))
           (or (digit-at i)
               (and (< i count) (char= (schar token i) #\.) (digit-at (1+ i))))))))
 
