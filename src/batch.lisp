@@ -88,6 +88,10 @@ end of the array; :VALUE, after a comma; :COMMA, after a value; :ANY, after an e
                    (column (source-column source)))
                (flet ((bad (text)
                         (answer-mistake batch text line column)))
+                 ;; An object at the beginning of a line, no comma before it, is no part of an array.
+                 (when (and (eq state :comma) (char= character #\{) (= column 1))
+                   (answer-mistake batch "this array is never closed" array-line array-column)
+                   (setf state :start))
                  (cond ((eq state :start)
                         (if (char= character #\[)
                             (progn (take-character source)
