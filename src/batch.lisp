@@ -164,7 +164,7 @@ COLUMN."
   "Return the record, or the lines, of the plan for the box of DESCRIPTION; or NIL, the problems,
 and whether they are ours."
   (handler-case
-      (let ((plan (plan (canonical-box description nil line)
+      (let ((plan (plan (canonical-box (unwrap-box description) nil line)
                         :knowledge (batch-knowledge batch) :gamma (batch-gamma batch))))
         (if (eq (batch-format batch) :trace)
             (with-output-to-string (out) (write-transcript plan out))

@@ -132,11 +132,11 @@ by the last octet and not before."
   (destructuring-bind (open close) (if (eq notation :lisp) '(40 41) '(123 125))
     (let ((depth 0) (string nil) (last (1- (length octets))))
       (and (plusp last)
+           (not (find 10 octets))
            (= (aref octets 0) open)
            (loop for place from 0 to last
                  for octet = (aref octets place)
-                 do (cond ((or (= octet 10) (and (= octet 59) (not string) (eq notation :lisp)))
-                           (return nil))
+                 do (cond ((and (= octet 59) (not string) (eq notation :lisp)) (return nil))
                           ((and string (= octet 92)) (incf place))
                           ((= octet 34) (setf string (not string)))
                           (string)
