@@ -27,7 +27,15 @@
                (:file "trace")
                (:file "repl")
                (:file "edit")
-               (:static-file "boot.lisp"))
+               (:file "sbcl")
+               (:file "input")
+               (:file "output")
+               (:file "jsonbox")
+               (:file "record")
+               (:file "batch")
+               (:file "main")
+               (:static-file "boot.lisp")
+               (:static-file "build.lisp"))
   :in-order-to ((test-op (test-op "supergrip/test"))))
 
 (defsystem "supergrip/chainer"
@@ -42,7 +50,8 @@
                              (:file "conditions")
                              (:file "names")
                              (:file "numbers")
-                             (:file "reader")))
+                             (:file "reader")
+                             (:file "json")))
                (:module "chainer"
                 :serial t
                 :components ((:file "package")
@@ -82,7 +91,13 @@
                (:file "engines")
                (:file "spoiled")
                (:file "explain")
-               (:file "scripts"))
+               (:file "json")
+               (:file "record")
+               (:file "scripts")
+               (:file "fuzzer")
+               (:file "batch")
+               (:file "main")
+               (:static-file "fuzz.lisp"))
   :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))
 
 (defsystem "supergrip/bench"

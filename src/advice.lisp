@@ -167,7 +167,7 @@ of CHANGEs, the smallest first."
   "Print and return why the best grasp of PLAN is the best: how it holds the box, what limits it, the
 runner-up, and which single need, friction or weight would have to change, and to what, for the
 choice to change."
-  (answer (advise plan)))
+  (print-answer (advise plan)))
 
 (defmethod write-answer ((answer advice) stream)
   (format stream "~a.~%" (advice-sentence answer))

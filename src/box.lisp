@@ -44,20 +44,60 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
 
 ;;; Reading
 
+(defstruct (box-key (:constructor box-key (key json takes example json-example)))
+  "A part of a box description: its KEY, its name in JSON, what it TAKES in words, and an example
+in each of the two notations."
+  key json takes example json-example)
+
 (defparameter +box-keys+
-  '((:size "three sizes in cm, above 0: (SIZE 12 2 2)")
-    (:weight "one number from 0, in finger forces: (WEIGHT 0.2)")
-    (:u "one coefficient of friction from 0: (U 0.8)")
-    (:v "one coefficient of torsional friction from 0, in cm: (V 0.2)")
-    (:constrained "faces among X1 X2 Y1 Y2 Z1 Z2, or nothing: (CONSTRAINED Z2 X1)")
-    (:force-needed "a list of six numbers from 0 to 1: (FORCE-NEEDED (1 0.8 0.8 0.3 1 1))")
-    (:velocity-needed "a list of six numbers from 0 to 1: (VELOCITY-NEEDED (0 0.8 0.8 0 0.8 0.8))")
-    (:name "one string: (NAME \"pencil\")"))
+  (list (box-key :size "size" "three sizes in cm, above 0" "(SIZE 12 2 2)" "\"size\": [12, 2, 2]")
+        (box-key :weight "weight" "one number from 0, in finger forces" "(WEIGHT 0.2)"
+                 "\"weight\": 0.2")
+        (box-key :u "u" "one coefficient of friction from 0" "(U 0.8)" "\"u\": 0.8")
+        (box-key :v "v" "one coefficient of torsional friction from 0, in cm" "(V 0.2)"
+                 "\"v\": 0.2")
+        (box-key :constrained "constrained" "faces among X1 X2 Y1 Y2 Z1 Z2, or nothing"
+                 "(CONSTRAINED Z2 X1)" "\"constrained\": [\"Z2\", \"X1\"]")
+        (box-key :force-needed "force_needed" "a list of six numbers from 0 to 1"
+                 "(FORCE-NEEDED (1 0.8 0.8 0.3 1 1))"
+                 "\"force_needed\": [1, 0.8, 0.8, 0.3, 1, 1]")
+        (box-key :velocity-needed "velocity_needed" "a list of six numbers from 0 to 1"
+                 "(VELOCITY-NEEDED (0 0.8 0.8 0 0.8 0.8))"
+                 "\"velocity_needed\": [0, 0.8, 0.8, 0, 0.8, 0.8]")
+        (box-key :name "name" "one string" "(NAME \"pencil\")" "\"name\": \"pencil\""))
   "The keys of a box description and what each takes.")
 
+(defvar *notation* :lisp
+  "How the description being checked was written, for the reports: :LISP or :JSON.")
+
+(defun key-name (entry)
+  "Return the name of the key ENTRY as the user writes it."
+  (if (eq *notation* :json)
+      (format nil "\"~a\"" (box-key-json entry))
+      (symbol-name (box-key-key entry))))
+
+(defun key-takes (entry)
+  "Return what the key ENTRY takes, with an example."
+  (format nil "~a: ~a" (box-key-takes entry)
+          (if (eq *notation* :json) (box-key-json-example entry) (box-key-example entry))))
+
+(defun find-key (key)
+  (find key +box-keys+ :key #'box-key-key))
+
+(defun value-text (value)
+  "Return VALUE as the user wrote it, cut after some 200 characters."
+  (if (eq *notation* :json) (json-text value) (form-text value)))
+
+(defun clause-text (key values)
+  "Return the clause of KEY with VALUES as the user wrote it."
+  (if (eq *notation* :json)
+      (json-clause-text key values)
+      (format nil "(~a~{ ~a~})" key (mapcar #'form-text values))))
+
 (defun refuse-value (key values)
-  (complain nil "(~a~{ ~a~}) is not valid: ~a takes ~a" key (mapcar #'form-text values) key
-            (second (assoc key +box-keys+))))
+  (let ((entry (find-key key)))
+    (complain nil "~a is not valid: ~a takes ~a" (clause-text key values) (key-name entry)
+              (key-takes entry))))
 
 (defun number-in (value least most)
   "Return VALUE as a double if it is a real from LEAST to MOST (NIL for no bound), or NIL."
@@ -66,9 +106,15 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
 
 (defun number-list (key list count least most values)
   "Return LIST, COUNT numbers from LEAST to MOST, as an array of doubles, or complain."
-  (let ((numbers (and (consp list) (loop for value in list collect (number-in value least most)))))
-    (if (and (= (length numbers) count) (notany #'null numbers))
-        (coerce numbers `(simple-array double-float (,count)))
+  (let ((numbers (make-array count :element-type 'double-float))
+        (place 0))
+    (dolist (value (and (listp list) list))
+      (let ((number (and (< place count) (number-in value least most))))
+        (unless number (return-from number-list (refuse-value key values)))
+        (setf (aref numbers place) number)
+        (incf place)))
+    (if (= place count)
+        numbers
         (refuse-value key values))))
 
 (defun face-set (values)
@@ -77,15 +123,18 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
     (dolist (value values set)
       (let ((face (and (namep value) (surface-index value))))
         (cond ((null face)
-               (return (complain nil "~a is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2, ~
-                                       without parentheses of their own" (form-text value))))
+               (return (complain nil "~a is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2~
+                                      ~:[~;, without parentheses of their own~]"
+                                 (value-text value) (consp value))))
               ((logbitp face set)
-               (return (complain nil "~a is constrained twice" value)))
+               (return (complain nil "~a is constrained twice" (value-text value))))
               (t (setf set (logior set (ash 1 face)))))))))
 
 (defun box-value (key values)
   "Return the value of KEY that VALUES, the rest of its clause, give.  NIL after a complaint."
   (flet ((only (value) (if (and value (null (rest values))) value (refuse-value key values))))
+    (unless (listp values)
+      (return-from box-value (refuse-value key values)))
     (ecase key
       (:name (only (and (stringp (first values)) (first values))))
       (:size (let ((size (number-list key values 3 0 nil values)))
@@ -108,20 +157,33 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
          (unwrap-box (third form)))
         (t form)))
 
+(defun key-named (name)
+  "Return the entry of the key NAME, a symbol or, in JSON, a string; or NIL."
+  (dolist (entry +box-keys+)
+    (when (if (stringp name)
+              (string= name (box-key-json entry))
+              (or (eq name (box-key-key entry)) (name= name (box-key-key entry))))
+      (return entry))))
+
 (defun clause-key (clause keys)
   "Return the key of CLAUSE if it is a good one that is not in KEYS yet, or complain."
-  (let* ((name (and (consp clause) (namep (first clause)) (first clause)))
-         (key (and name (name-in name (mapcar #'first +box-keys+)))))
+  (let* ((name (and (consp clause) (or (stringp (first clause)) (namep (first clause)))
+                    (or (eq *notation* :json) (not (stringp (first clause))))
+                    (first clause)))
+         (entry (and name (key-named name))))
     (cond ((null name)
            (complain nil "~a is not a part of a box description: its parts are lists as ~
                           (SIZE 12 2 2)" (form-text clause)))
-          ((null key)
-           (complain nil "unknown key ~a~a; keys are ~{~a~^, ~}" name
-                     (suggestion (symbol-name name) (mapcar #'symbol-name
-                                                            (mapcar #'first +box-keys+)))
-                     (mapcar #'first +box-keys+)))
-          ((member key keys) (complain nil "~a is given twice" key))
-          (t key))))
+          ((null entry)
+           (complain nil "unknown key ~a~a; keys are ~{~a~^, ~}" (value-text name)
+                     (suggestion (string name) (mapcar (if (stringp name)
+                                                           #'box-key-json
+                                                           (lambda (entry)
+                                                             (symbol-name (box-key-key entry))))
+                                                       +box-keys+))
+                     (mapcar #'key-name +box-keys+)))
+          ((member (box-key-key entry) keys) (complain nil "~a is given twice" (key-name entry)))
+          (t (box-key-key entry)))))
 
 (defun box-values (description)
   "Return a plist of the values in DESCRIPTION, a list of clauses, complaining of what is wrong."
@@ -131,13 +193,14 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
         (when key
           (push key keys)
           (setf (getf values key) (box-value key (rest clause))))))
-    (loop for (key takes) in +box-keys+
-          unless (or (eq key :name) (member key keys))
-            do (complain nil "~a is missing; it takes ~a" key takes))
+    (dolist (entry +box-keys+)
+      (unless (or (eq (box-key-key entry) :name) (member (box-key-key entry) keys))
+        (complain nil "~a is missing; it takes ~a" (key-name entry) (key-takes entry))))
     (when (and (getf values :force-needed) (getf values :velocity-needed)
-               (every #'zerop (getf values :force-needed))
-               (every #'zerop (getf values :velocity-needed)))
-      (complain nil "the task needs nothing: FORCE-NEEDED and VELOCITY-NEEDED are all 0"))
+               (every #'zerop (the six (getf values :force-needed)))
+               (every #'zerop (the six (getf values :velocity-needed))))
+      (complain nil "the task needs nothing: ~a and ~a are all 0"
+                (key-name (find-key :force-needed)) (key-name (find-key :velocity-needed))))
     values))
 
 (defun parse-box (form &key file line)
@@ -161,8 +224,10 @@ Signals a BOX-ERROR that holds all that is wrong with it."
         (with-problems
           (if (and (consp description) (some #'consp description))
               (box-values description)
-              (complain nil "~a is not a box description: it is a list as ~
-                             ((SIZE 12 2 2) (WEIGHT 0.2) ...)" (form-text description)))))
+              (complain nil "~a is not a box description: ~a" (value-text description)
+                        (if (eq *notation* :json)
+                            "it is an object as {\"size\": [12, 2, 2], \"weight\": 0.2, ...}"
+                            "it is a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)")))))
     (when problems
       (dolist (problem problems)
         (setf (problem-file problem) file (problem-line problem) line))

@@ -24,7 +24,7 @@
       (format nil "~{~a~#[~; and ~:;, ~]~} ~:[is~;are~] ~a" surfaces (rest surfaces) words)
       words))
 
-(defun clause-text (clause)
+(defun antecedent-text (clause)
   (let* ((form (clause-form clause))
          (text (sentence-text (predicate-text (clause-predicate clause)) (find-if #'consp form))))
     (if (clause-negated clause) (format nil "nothing says that ~a" text) text)))
@@ -65,7 +65,7 @@ who tests what it derives.  Returns the rule."
     (write-rule-form rule stream)
     (write-comment (rule-comment rule) stream)
     (format stream "In words: if ~{~a~^, and ~}, then ~{~a~^; then ~}.~%"
-            (mapcar #'clause-text (rule-clauses rule)) (mapcar #'action-text (rule-actions rule)))
+            (mapcar #'antecedent-text (rule-clauses rule)) (mapcar #'action-text (rule-actions rule)))
     (dolist (predicate (remove-duplicates (mapcar #'clause-predicate (rule-clauses rule))
                                           :from-end t))
       (format stream "~a comes from ~{~a~^, ~}.~%" (predicate-text predicate)

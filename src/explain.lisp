@@ -41,7 +41,7 @@
 (defgeneric write-answer (answer stream)
   (:documentation "Write ANSWER, an explanation, to STREAM in words."))
 
-(defun answer (object)
+(defun print-answer (object)
   "Print OBJECT, an explanation, and return it."
   (write-answer object *standard-output*)
   (fresh-line)
@@ -165,7 +165,7 @@ derived it did not."
 (defun how (fact &optional (plan *plan*))
   "Print and return how FACT, as '(PARALLEL (Y2 Y1)), came to be known in PLAN: the tree of rules,
 bindings and facts down to the box; negations as assumed when they were tested."
-  (answer (explain-fact fact plan)))
+  (print-answer (explain-fact fact plan)))
 
 (defun deriving-rules (predicate plan)
   "Return the rules of PLAN that remember PREDICATE."

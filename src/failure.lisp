@@ -151,11 +151,12 @@
          (u (aref registers +u+)))
     (cond ((not (program-value-p (grasp-wrench grasp) registers)) "a form of WRENCH has no value")
           ((closed-at-p grasp registers u) "a form of TWIST, or the index, has no value in range")
-          ((closing-friction grasp (copy-seq (attempt-registers attempt)))
-           (format nil "open: the contacts don't close on this shape; needs u > ~a, has ~a"
-                   (figure (closing-friction grasp (copy-seq (attempt-registers attempt))))
-                   (figure u)))
-          (t "open: the contacts don't close on this shape with any friction"))))
+          (t
+           (let ((needed (closing-friction grasp registers)))
+             (if needed
+                 (format nil "open: the contacts don't close on this shape; needs u > ~a, has ~a"
+                         (figure needed) (figure u))
+                 "open: the contacts don't close on this shape with any friction"))))))
 
 (defun worst-load (attempt)
   "Return the axis on which the load exceeds what the grasp bears by most, and the ratio."
@@ -190,10 +191,22 @@ with the figures.  NIL if it is possible."
 (defparameter +steps+ '(:conditions :offset :fingers :open :lifting :possible)
   "The steps of TRY, in order.")
 
-(defun shortfall (candidate plan)
+(defun friction-shortfall (grasp registers least)
+  "Return by how much the friction in REGISTERS misses what closes GRASP, relative; 1 if nothing
+does, or if it is no less than LEAST, unless that is NIL."
+  (let* ((u (aref registers +u+))
+         (needed (and (or (null least)
+                          ;; One look here saves most of the searches.
+                          (closed-at-p grasp registers (/ u (- 1 (- least +tie+)))))
+                      (progn (setf (aref registers +u+) u)
+                             (closing-friction grasp registers)))))
+    (if needed (- 1 (/ u needed)) 1)))
+
+(defun shortfall (candidate plan attempt least)
   "Return by how much CANDIDATE of PLAN missed the step that it failed: 0 to 1, relative; 1 where
-that can't be said."
-  (let ((attempt (replay candidate plan)))
+that can't be said, or if it is no less than LEAST.  ATTEMPT, at the box of PLAN, is used to replay
+it."
+  (let ((attempt (replay candidate plan attempt)))
     (case (candidate-outcome candidate)
       (:conditions
        (let ((node (failing-condition candidate attempt)))
@@ -203,11 +216,8 @@ that can't be said."
                                                (node-registers node))
                (if (= a b) 0 (/ (abs (- a b)) (max a b))))
              1)))
-      (:open
-       (let* ((u (aref (attempt-registers attempt) +u+))
-              (needed (closing-friction (%candidate-grasp candidate)
-                                        (copy-seq (attempt-registers attempt)))))
-         (if needed (- 1 (/ u needed)) 1)))
+      (:open (friction-shortfall (%candidate-grasp candidate)
+                                 (copy-seq (attempt-registers attempt)) least))
       (:lifting (- 1 (/ (nth-value 1 (worst-load attempt)))))
       (t 1))))
 
@@ -215,10 +225,11 @@ that can't be said."
   "Return the one of CANDIDATES of PLAN that got farthest; of several, the one that missed by least."
   (let* ((step (find-if (lambda (step) (find step candidates :key #'candidate-outcome))
                         (reverse +steps+)))
+         (attempt (new-attempt plan))
          (best nil) (least nil))
     (dolist (candidate candidates best)
       (when (eq step (candidate-outcome candidate))
-        (let ((shortfall (shortfall candidate plan)))
+        (let ((shortfall (shortfall candidate plan attempt least)))
           (when (or (null least) (< shortfall (- least +tie+)))
             (setf best candidate least shortfall)))))))
 

@@ -91,10 +91,9 @@ CONSTANTS, a table from a double to its node, shared by all forms."
   "Complain, and return true, if FORM does not have LEAST to MOST arguments."
   (let ((count (length (rest form))))
     (when (or (< count least) (and most (> count most)))
-      (complain form "~a takes ~:[~d to ~d~;~d~] argument~:p~:[ or more~;~], here ~d: ~a"
-                (first form) (or (null most) (= least most)) least
-                (if (and most (/= least most)) most (if (null most) nil t))
-                (length (rest form)) (form-text form))
+      (complain form "~a takes ~d~@[ to ~d~] argument~p~:[~; or more~], here ~d: ~a"
+                (first form) least (and most (/= least most) most) (or most least) (null most)
+                count (form-text form))
       t)))
 
 (defun parse-arguments (form scope)

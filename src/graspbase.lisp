@@ -345,7 +345,7 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
               (t (multiple-value-bind (name plist) (definition-form form)
                    (let ((draft (and name (parse-grasp name plist form scope))))
                      (cond ((null draft)
-                            (when (and (consp (rest form)) (namep (second form)))
+                            (when (and (consp form) (consp (rest form)) (namep (second form)))
                               (push (symbol-name (second form)) broken)))
                            ((find (draft-name draft) drafts :key #'draft-name :test #'string=)
                             (let ((*subject* (format nil "GRASP ~a" name)))

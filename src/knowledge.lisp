@@ -100,12 +100,25 @@ What is wrong is left out."
 
 ;;; Files
 
-(defun shipped-file (name)
-  "Return the file NAME of SUPER-GRIP itself."
-  (asdf:system-relative-pathname "supergrip" name))
+(defvar *kept-files* '()
+  "In an executable, which may have left its directory, the data files of what is shipped.")
 
-(defun read-data-file (path)
-  "Return the data file at PATH; what prevents its being read is among its problems."
+(defun keep-shipped-files ()
+  "Keep the shipped rules and grasps in the image."
+  (setf *kept-files* (loop for name in '("rules.lisp" "grasps.lisp")
+                           collect (read-data-file (shipped-file name)))))
+
+(defun shipped-file (name)
+  "Return the path of the file NAME of SUPER-GRIP itself, or the data file that was kept of it."
+  (or (find name *kept-files* :key #'data-file-name :test #'string=)
+      (asdf:system-relative-pathname "supergrip" name)))
+
+(defun read-data-file (file)
+  "Return the data file of FILE, a path, or FILE itself if it is one; what prevents its being read
+is among its problems."
+  (if (data-file-p file) file (read-path file)))
+
+(defun read-path (path)
   (let ((name (file-namestring path)))
     (flet ((unusable (problems)
              (make-data-file :path path :name name :problems problems)))

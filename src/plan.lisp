@@ -183,13 +183,15 @@ the box."
                       (grasp-palm (%candidate-grasp candidate)))
                -1))
 
-(defun replay (candidate plan)
-  "Take CANDIDATE of PLAN through the steps again, and return the attempt that holds its figures."
-  (let ((attempt (make-attempt (plan-box plan) (knowledge-graspbase (plan-knowledge plan))
-                               (plan-gamma plan))))
-    (run-steps attempt (make-candidate (%candidate-grasp candidate)
-                                       (%candidate-matching candidate)))
-    attempt))
+(defun new-attempt (plan)
+  "Return an attempt at the box of PLAN with nothing tried yet."
+  (make-attempt (plan-box plan) (knowledge-graspbase (plan-knowledge plan)) (plan-gamma plan)))
+
+(defun replay (candidate plan &optional (attempt (new-attempt plan)))
+  "Take CANDIDATE of PLAN through the steps again, and return ATTEMPT, which holds its figures."
+  (run-steps attempt (make-candidate (%candidate-grasp candidate)
+                                     (%candidate-matching candidate)))
+  attempt)
 
 (defun candidate-contacts (candidate plan)
   "Return the contacts of CANDIDATE, which is possible in PLAN: a list of plists with :SURFACE, the

@@ -152,7 +152,7 @@ is HOW's.  PLAN may stand in the place of MATCHING."
       (if (plan-p matching) (values nil matching) (values matching plan))
     (if (consp name)
         (how name plan)
-        (answer (explain-refusal (string name) matching plan)))))
+        (print-answer (explain-refusal (string name) matching plan)))))
 
 (defmethod write-answer ((answer not-chosen) stream)
   (format stream "~a~@[ (~{~a~^ ~})~]: ~a.~%" (grasp-name (not-chosen-grasp answer))

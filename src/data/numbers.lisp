@@ -14,11 +14,18 @@
         do (incf start))
   start)
 
+(declaim (inline signp))
+(defun signp (character)
+  (or (char= character #\+) (char= character #\-)))
+
 (defun digits-value (text start end value)
   "Return VALUE continued by the digits of TEXT between START and END."
   (declare (type (simple-array character (*)) text) (fixnum start end))
   (loop for i of-type fixnum from start below end
-        do (setf value (+ (* 10 value) (- (char-code (schar text i)) 48))))
+        for digit of-type (integer 0 9) = (- (char-code (schar text i)) 48)
+        do (setf value (if (typep value '(unsigned-byte 58)) ; in machine arithmetic
+                           (+ (* 10 value) digit)
+                           (+ (* 10 value) digit))))
   value)
 
 (defun bounded-double (mantissa exponent)
@@ -57,7 +64,7 @@ where the digits before or after the point may be absent, and d stands for e too
   (when (> end (the fixnum *number-limit*))
     (return-from parse-number (values nil :length)))
   (let* ((negative (and (plusp end) (char= (schar text 0) #\-)))
-         (start (if (and (plusp end) (find (schar text 0) "+-")) 1 0))
+         (start (if (and (plusp end) (signp (schar text 0))) 1 0))
          (point (digits-end text start end))
          (whole (digits-value text start point 0)))
     (flet ((signed (value)
@@ -91,7 +98,7 @@ where the digits before or after the point may be absent, and d stands for e too
           ((not (find (schar text mark) "eEdD")) (values nil :syntax))
           (t
            (let* ((sign (1+ mark))
-                  (first (if (and (< sign end) (find (schar text sign) "+-")) (1+ sign) sign))
+                  (first (if (and (< sign end) (signp (schar text sign))) (1+ sign) sign))
                   (last (digits-end text first end))
                   (power (digits-value text first last 0)))
              (cond ((or (= first last) (< last end)) (values nil :syntax))

@@ -6,7 +6,7 @@
 in them.")
   (:export
    ;; problems
-   #:problem #:problem-severity #:problem-file #:problem-line #:problem-column
+   #:problem #:make-problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text
    #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
    #:make-problem #:errors-in #:warnings-in #:suggestion
@@ -16,8 +16,13 @@ in them.")
    #:knowledge-warning    #:knowledge-warning-problems
    #:retry
    ;; names and forms
-   #:name-text #:name= #:name-in #:namep #:canonical #:form-text #:as-double
+   #:name-text #:name= #:name-in #:namep #:canonical #:canonical-name #:form-text #:as-double
    ;; reader
    #:source #:string-source #:stream-source #:source-line #:source-column #:source-name
    #:read-datum #:skip-blanks #:end-of-data #:read-all #:record-start-line
-   #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*))
+   #:skip-to-record #:skip-record #:make-source
+   #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*
+   ;; JSON
+   #:read-json #:skip-to-json #:take-character #:skip-json #:json-array #:json-array-p #:make-json-array #:json-array-elements
+   #:json-object #:json-object-p #:json-object-members #:json-literal #:json-literal-p
+   #:json-literal-text))

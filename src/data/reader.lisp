@@ -13,7 +13,8 @@
 
 (defstruct (source (:constructor make-source (buffer end &key refill name)))
   "Where characters come from.  REFILL is NIL or a function without arguments that returns the
-next buffer and its end, or NIL at the end."
+next buffer, its end and, if that is not 0, the place where its characters begin; or NIL at the
+end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an error was found."
   (buffer "" :type (simple-array character (*)))
   (position 0 :type fixnum)
   (end 0 :type fixnum)
@@ -24,6 +25,8 @@ next buffer and its end, or NIL at the end."
   (line-offset 0 :type fixnum)          ; of the current line's first character
   (record-offset 0 :type fixnum)        ; of the current record's first character
   (record-start-line 1 :type fixnum)
+  (depth 0 :type fixnum)                ; how many lists are open
+  (inside nil :type symbol)
   (lines nil)                           ; NIL or a table from list to line
   (comment '() :type list)              ; the lines of comment just before, the latest first
   (comments nil)                        ; NIL or a table from outermost list to its comment
@@ -64,13 +67,14 @@ next buffer and its end, or NIL at the end."
 (defun refill (source)
   "Get more characters.  Returns NIL at the end of the input."
   (when (source-refill source)
-    (multiple-value-bind (buffer end) (funcall (source-refill source))
+    (multiple-value-bind (buffer end start) (funcall (source-refill source))
       (when buffer
-        (incf (source-offset source) (source-end source))
-        (setf (source-buffer source) buffer
-              (source-position source) 0
-              (source-end source) end)
-        t))))
+        (let ((start (or start 0)))
+          (incf (source-offset source) (- (source-end source) start))
+          (setf (source-buffer source) buffer
+                (source-position source) start
+                (source-end source) end)
+          t)))))
 
 (declaim (inline peek next))
 (defun peek (source)
@@ -104,9 +108,17 @@ next buffer and its end, or NIL at the end."
   (or (blankp character) (char= character #\() (char= character #\)) (char= character #\')
       (char= character #\") (char= character #\;)))
 
+(declaim (inline name-character-p))
 (defun name-character-p (character)
-  (or (char<= #\a character #\z) (char<= #\A character #\Z) (char<= #\0 character #\9)
-      (find character "-+*/<>=?!._%&$")))
+  (let ((code (char-code character)))
+    (and (< code 128)
+         (= 1 (sbit (load-time-value
+                     (let ((bits (make-array 128 :element-type 'bit :initial-element 0)))
+                       (dotimes (code 128 bits)
+                         (when (or (alphanumericp (code-char code))
+                                   (find (code-char code) "-+*/<>=?!._%&$"))
+                           (setf (sbit bits code) 1)))))
+                    code)))))
 
 (defun character-description (character)
   (if (and (graphic-char-p character) (char/= character #\Space))
@@ -119,10 +131,12 @@ next buffer and its end, or NIL at the end."
         do (cond ((null character) (return nil))
                  ((blankp character) (next source))
                  ((char= character #\;)
+                  (setf (source-inside source) :comment)
                   (loop for c = (peek source)
                         while (and c (char/= c #\Newline))
                         do (next source)
-                           (check-size source)))
+                           (check-size source))
+                  (setf (source-inside source) nil))
                  (t (return character)))
            (check-size source)))
 
@@ -136,22 +150,34 @@ next buffer and its end, or NIL at the end."
   "Read the next outermost form of SOURCE and return it, or (END-OF-DATA).
 Names become symbols that are to be compared by their letters (NAME=), in upper case; numbers
 integers, ratios or doubles; 'X becomes (QUOTE X).  Signals a SYNTAX-ERROR."
+  (if (skip-to-record source)
+      (let ((form (read-form source 0)))
+        (when (source-comments source)
+          (keep-comment form source))
+        form)
+      (end-of-data)))
+
+(defun keep-comment (form source)
+  "Keep the comment that stands just before FORM."
+  (when (consp form)
+    (setf (gethash form (source-comments source)) (reverse (source-comment source))))
+  (setf (source-comment source) '()))
+
+(defun skip-to-record (source)
+  "Skip white space and comments of any length; return the first character of the next record, or
+NIL at the end."
   (start-record source)
   (loop for character = (peek source)
         while (and character (or (blankp character) (char= character #\;)))
         do (skip-between source)
            (start-record source))
-  (if (peek source)
-      (let ((form (read-form source 0)))
-        (when (and (source-comments source) (consp form))
-          (setf (gethash form (source-comments source)) (reverse (source-comment source))))
-        (setf (source-comment source) '())
-        form)
-      (end-of-data)))
+  (peek source))
 
 (defun start-record (source)
   (setf (source-record-offset source) (+ (source-offset source) (source-position source))
-        (source-record-start-line source) (source-line source)))
+        (source-record-start-line source) (source-line source)
+        (source-depth source) 0
+        (source-inside source) nil))
 
 (defun skip-between (source)
   "Skip one blank character, or a comment of any length, between outermost forms.
@@ -202,11 +228,13 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
          (head (list nil))
          (tail head))
     (next source)
+    (incf (source-depth source))
     (loop for character = (skip-blanks source)
           do (cond ((null character)
                     (fail-at source line column "this parenthesis is never closed"))
                    ((char= character #\))
                     (next source)
+                    (decf (source-depth source))
                     (return))
                    (t (setf (cdr tail) (list (read-form source depth))
                             tail (cdr tail)))))
@@ -228,6 +256,7 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
         (count 0))
     (declare (fixnum count))
     (next source)
+    (setf (source-inside source) :string)
     (loop
       (let ((character (peek source)))
         (when (null character)
@@ -235,7 +264,8 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
         (next source)
         (check-size source)
         (case character
-          (#\" (return (subseq (source-token source) 0 count)))
+          (#\" (setf (source-inside source) nil)
+           (return (subseq (source-token source) 0 count)))
           (#\\ (setf character (peek source))
            (unless (member character '(#\" #\\))
              (fail source "in a string, \\ stands only before \\ or \""))
@@ -275,7 +305,7 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
   (declare (type (simple-array character (*)) token) (fixnum count))
   (flet ((digit-at (i) (and (< i count) (char<= #\0 (schar token i) #\9))))
     (or (digit-at 0)
-        (let ((i (if (find (schar token 0) "+-") 1 0)))
+        (let ((i (if (signp (schar token 0)) 1 0)))
           (or (digit-at i)
               (and (< i count) (char= (schar token i) #\.) (digit-at (1+ i))))))))
 
@@ -314,6 +344,43 @@ one from each outermost list to the lines of the comment just before it."
                   collect form)
             lines
             comments)))
+
+;;; Going on after an error
+
+(defun skip-record (source)
+  "Skip what is left of a record in which READ-DATUM has found an error: as far as the parenthesis
+that closes it or, outside all parentheses, as far as the next one or the end of the line."
+  (loop for character = (peek source)
+        while character
+        until (and (zerop (source-depth source)) (null (source-inside source))
+                   (char= character #\())
+        do (next source)
+           (when (skip-character source character)
+             (return))))
+
+(defun skip-character (source character)
+  "Note what CHARACTER, just skipped, opens or closes; true if it ends the record."
+  (case (source-inside source)
+    (:string (case character
+               (#\\ (when (peek source) (next source)))
+               (#\" (setf (source-inside source) nil)))
+     nil)
+    (t (case character
+         (#\Newline (setf (source-inside source) nil)
+          (zerop (source-depth source)))
+         (t (unless (source-inside source)
+              (skip-delimiter source character)))))))
+
+(defun skip-delimiter (source character)
+  (case character
+    (#\" (setf (source-inside source) :string)
+     nil)
+    (#\; (setf (source-inside source) :comment)
+     nil)
+    (#\( (incf (source-depth source))
+     nil)
+    (#\) (and (plusp (source-depth source))
+              (zerop (decf (source-depth source)))))))
 
 ;;; Forms that come from the Lisp reader
 

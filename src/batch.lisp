@@ -1,0 +1,203 @@
+;;;; batch.lisp -- boxes in, records out: one for each box or fragment, in the same order.
+;;;;
+;;;; Nothing is kept from one record to the next, so the input may have any length.  A record that
+;;;; can't be read costs that record only.
+
+(in-package :supergrip)
+
+(defstruct (batch (:constructor make-batch (knowledge gamma notation format output)))
+  "What records are made with, and how many were.  NOTATION is :LISP, :JSON or NIL, to tell from
+the input; FORMAT is :TRACE, :LISP, :JSON or NIL, as the input.  BAD counts the error records;
+BROKEN is true if one of them was our fault."
+  (knowledge nil :type knowledge)
+  (gamma 0.5d0 :type double-float)
+  notation format
+  (output nil :type output)
+  (done 0 :type fixnum)
+  (bad 0 :type fixnum)
+  (broken nil)
+  (after-record nil :type (or null function)))
+
+(defun run-batch (batch descriptor)
+  "Read boxes from DESCRIPTOR to its end, or until *SIGNAL* is set, and write their records.
+Signals a SYSTEM-FAILURE if the one can't be read or the other not written."
+  (let* ((input (make-input descriptor (lambda () (flush-output (batch-output batch)))))
+         (source (input-source input nil))
+         (notation (or (batch-notation batch) (notation-of source))))
+    (setf (input-json input) (eq notation :json))
+    (unless (batch-format batch)
+      (setf (batch-format batch) notation))
+    (let ((*notation* notation))
+      (if (eq notation :json)
+          (run-json batch source input)
+          (run-lisp batch source input)))
+    (flush-output (batch-output batch))))
+
+(defun notation-of (source)
+  "Return :JSON if what SOURCE holds begins as JSON does, with { or [; else :LISP."
+  (if (member (skip-to-json source) '(#\{ #\[)) :json :lisp))
+
+(defun next-record (input source skip)
+  "Go by the function SKIP to the next record, and return its first character, or NIL at the end
+or if a signal came."
+  (setf (input-open input) nil
+        (input-cut input) nil)
+  (let ((character (funcall (the function skip) source)))
+    (setf (input-open input) t)
+    (and (not *signal*) character)))
+
+;;; Lisp
+
+(defun run-lisp (batch source input)
+  (loop while (next-record input source #'skip-to-record)
+        do (let ((line (source-line source))
+                 (column (source-column source)))
+             (multiple-value-bind (form problems) (read-lisp-box source input)
+               (when (and problems *signal*) (return))
+               (answer batch form problems line column)))))
+
+(defun read-lisp-box (source input)
+  "Return the form of the next record, or NIL and the list of what is wrong."
+  (handler-case
+      (let ((form (read-datum source)))
+        (unless (listp form)
+          (skip-record source))
+        form)
+    (syntax-error (condition)
+      (skip-record source)
+      (values nil (problems-of condition source input)))))
+
+(defun problems-of (condition source input)
+  "Return the problems of CONDITION, the syntax error of a record that has been skipped."
+  (let ((problems (input-error-problems condition)))
+    (when (and (input-cut input) (search "never closed" (problem-text (first problems))))
+      (setf (problem-text (first problems))
+            (format nil "~a before line ~d, which starts another record"
+                    (problem-text (first problems)) (source-line source))))
+    problems))
+
+;;; JSON
+
+(defun run-json (batch source input)
+  "STATE is what may come next: :START, an object or an array of objects; :FIRST, a value or the
+end of the array; :VALUE, after a comma; :COMMA, after a value; :ANY, after an error."
+  (let ((state :start) (array-line 0) (array-column 0))
+    (loop for character = (next-record input source #'skip-to-json)
+          while character
+          do (let ((line (source-line source))
+                   (column (source-column source)))
+               (flet ((bad (text)
+                        (answer-mistake batch text line column)))
+                 ;; An object at the beginning of a line, no comma before it, is no part of an array.
+                 (when (and (eq state :comma) (char= character #\{) (= column 1))
+                   (answer-mistake batch "this array is never closed" array-line array-column)
+                   (setf state :start))
+                 (cond ((eq state :start)
+                        (if (char= character #\[)
+                            (progn (take-character source)
+                                   (setf state :first array-line line array-column column))
+                            (run-json-value batch source input state line column)))
+                       ((char= character #\])
+                        (when (eq state :value)
+                          (bad "a comma stands before the end of the array"))
+                        (take-character source)
+                        (setf state :start))
+                       ((char= character #\,)
+                        (when (member state '(:first :value))
+                          (bad "a comma too many"))
+                        (take-character source)
+                        (setf state :value))
+                       (t
+                        (setf state (run-json-value batch source input state line column)))))))
+    (unless (or *signal* (eq state :start))
+      (answer-mistake batch "this array is never closed" array-line array-column))))
+
+(defun answer-mistake (batch text line column)
+  "Write the record of a fragment at LINE and COLUMN that is no value."
+  (answer batch nil (list (make-problem :line line :column column :text text)) line))
+
+(defun run-json-value (batch source input state line column)
+  "Answer the value that SOURCE stands at, and return the state after it if it is in an array."
+  (multiple-value-bind (value problems) (read-json-box source input (eq state :start))
+    (when (and (null problems) (eq state :comma))
+      (setf problems (list (make-problem :line line :column column
+                                         :text "a comma is missing before this value"))))
+    (unless (and problems *signal*)
+      (answer batch (json-description value) problems line column))
+    (if problems :any :comma)))
+
+(defun read-json-box (source input alone)
+  "Return the value of the next record, or NIL and the list of what is wrong.  ALONE is true if it
+is not in an array, so that the rest of its line belongs to it if it is no object."
+  (let ((stops (if alone "{" ",]{")))
+    (handler-case
+        (let ((value (read-json source)))
+          (when (and alone (not (json-object-p value)))
+            (skip-json source stops))
+          value)
+      (syntax-error (condition)
+        (skip-json source stops)
+        (values nil (problems-of condition source input))))))
+
+;;; Records
+
+(defun answer (batch description problems line &optional column)
+  "Write the record of the box that DESCRIPTION describes, or of PROBLEMS.  It begins at LINE and
+COLUMN."
+  (multiple-value-bind (result problems broken)
+      (if problems
+          (values nil problems nil)
+          (plan-result batch description line column))
+    (let ((result (or result (problem-result batch description problems line)))
+          (output (batch-output batch)))
+      (incf (batch-done batch))
+      (when problems (incf (batch-bad batch)))
+      (when broken (setf (batch-broken batch) t))
+      (ecase (batch-format batch)
+        (:trace (put-text output result))
+        (:lisp (write-lisp-record result output))
+        (:json (write-json-record result output)))
+      (when (batch-after-record batch)
+        (funcall (batch-after-record batch))))))
+
+(defun plan-result (batch description line column)
+  "Return the record, or the lines, of the plan for the box of DESCRIPTION; or NIL, the problems,
+and whether they are ours."
+  (handler-case
+      (let ((plan (plan (canonical-box (unwrap-box description) nil line)
+                        :knowledge (batch-knowledge batch) :gamma (batch-gamma batch))))
+        (if (eq (batch-format batch) :trace)
+            (with-output-to-string (out) (write-transcript plan out))
+            (plan-record plan :line line)))
+    (box-error (condition)
+      (let ((problems (input-error-problems condition)))
+        (dolist (problem problems)
+          (setf (problem-column problem) column))
+        (values nil problems nil)))
+    (serious-condition (condition)
+      (values nil
+              (list (make-problem :line line :column column
+                                  :text (format nil "SUPER-GRIP failed, which is our fault: ~a"
+                                                condition)))
+              t))))
+
+(defun problem-result (batch description problems line)
+  "Return the record, or the lines, of PROBLEMS."
+  (if (eq (batch-format batch) :trace)
+      (format nil "~{(BAD BOX: ~a)~%~}--END--~%"
+              (loop for problem in problems
+                    collect (substitute-if #\Space (lambda (character)
+                                                     (char< character #\Space))
+                                           (problem-reason problem))))
+      (error-record problems :name (description-name description) :line line)))
+
+(defun description-name (description)
+  "Return the name in DESCRIPTION, which need not be valid, or NIL."
+  (let ((clauses (unwrap-box description)))
+    (when (consp clauses)
+      (loop for clause in clauses
+            when (and (consp clause)
+                      (or (equal (first clause) "name") (name= (first clause) "NAME"))
+                      (consp (rest clause))
+                      (stringp (second clause)))
+              return (second clause)))))

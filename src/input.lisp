@@ -1,0 +1,182 @@
+;;;; input.lisp -- the characters of a descriptor, as soon as they are there, for the data reader.
+;;;;
+;;;; Octets are decoded as UTF-8; what is not UTF-8 becomes U+FFFD.  The reader gets them in
+;;;; pieces that end where a line that starts a record begins: a record that is still open there
+;;;; has lost a parenthesis or a quote, and is told that the input ends, so that it takes no other
+;;;; record with it.
+
+(in-package :supergrip)
+
+(defconstant +look-ahead+ 5 "How many characters tell whether a line starts a record.")
+
+(defstruct (input (:constructor make-input (descriptor before-waiting)))
+  "A descriptor being read.  BEFORE-WAITING is called before each wait for octets.  The characters
+from PLACE to END of CHARACTERS are not given to the reader yet.  OPEN is true while a record is
+being read, CUT once a line that starts another one has ended it."
+  (descriptor 0 :type fixnum)
+  (before-waiting nil :type function)
+  (octets (make-array 65536 :element-type '(unsigned-byte 8)) :type octets)
+  (octets-end 0 :type fixnum)
+  (characters (make-string (+ 65536 +look-ahead+)) :type (simple-array character (*)))
+  (place 0 :type fixnum)
+  (end 0 :type fixnum)
+  (at-end nil)
+  (fresh t)                             ; nothing read yet
+  (line-start t)
+  (json nil)
+  (open nil)
+  (cut nil))
+
+(defun input-source (input name)
+  "Return a source that reads INPUT.  NAME is used in reports."
+  (make-source (input-characters input) 0 :name name :refill (lambda () (next-piece input))))
+
+;;; Octets to characters
+
+(defun sequence-length (octet)
+  "Return how many octets the UTF-8 sequence that begins with OCTET has; 0 if none begins so."
+  (declare (type (unsigned-byte 8) octet))
+  (cond ((< octet #x80) 1)
+        ((< octet #xc2) 0)
+        ((< octet #xe0) 2)
+        ((< octet #xf0) 3)
+        ((< octet #xf5) 4)
+        (t 0)))
+
+(defun decode-sequence (octets start end length)
+  "Return the code of the sequence of LENGTH octets at START, or NIL, and how many octets of it are
+valid; as many as END allows are looked at."
+  (declare (type octets octets) (fixnum start end) (type (integer 2 4) length))
+  (let ((code (ldb (byte (- 7 length) 0) (aref octets start)))
+        (least (ecase length (2 #x80) (3 #x800) (4 #x10000))))
+    (declare (type (unsigned-byte 32) code))
+    (loop for count of-type fixnum from 1 below length
+          for place of-type fixnum = (+ start count)
+          do (unless (and (< place end) (= (logand #xc0 (aref octets place)) #x80))
+               (return-from decode-sequence (values nil count)))
+             (setf code (logior (ash code 6) (logand #x3f (aref octets place))))
+             ;; The first two octets tell what is too long, a surrogate or out of range.
+             (when (= count 1)
+               (let ((low (ash code (* 6 (- length 2)))))
+                 (when (or (< (logior low (1- (ash 1 (* 6 (- length 2))))) least)
+                           (<= #xd800 low #xdfff)
+                           (> low #x10ffff))
+                   (return-from decode-sequence (values nil 1))))))
+    (values code length)))
+
+(defun decode (input)
+  "Turn octets of INPUT into characters, as many as there is room for; keep the beginning of a
+sequence whose rest may still come."
+  (declare (type input input))
+  (let* ((octets (input-octets input))
+         (octets-end (input-octets-end input))
+         (characters (input-characters input))
+         (end (input-end input))
+         (start 0))
+    (declare (type octets octets) (type (simple-array character (*)) characters)
+             (fixnum octets-end end start))
+    (loop while (< start octets-end)
+          do (let* ((octet (aref octets start))
+                    (length (sequence-length octet)))
+               (cond ((= length 1)
+                      (setf (schar characters end) (code-char octet))
+                      (incf start))
+                     ((= length 0)
+                      (setf (schar characters end) (code-char #xfffd))
+                      (incf start))
+                     (t
+                      (multiple-value-bind (code count)
+                          (decode-sequence octets start octets-end length)
+                        (declare (fixnum count))
+                        (when (and (null code) (= (+ start count) octets-end)
+                                   (not (input-at-end input)))
+                          (return))
+                        (setf (schar characters end) (code-char (or code #xfffd)))
+                        (incf start count))))
+               (incf end)))
+    (replace octets octets :start2 start :end2 octets-end)
+    (setf (input-octets-end input) (- octets-end start)
+          (input-end input) end)))
+
+(defun more-characters (input)
+  "Move the characters that the reader has not got to the front, and get some more; false at the
+end."
+  (let ((characters (input-characters input))
+        (before (- (input-end input) (input-place input))))
+    (replace characters characters :start2 (input-place input) :end2 (input-end input))
+    (setf (input-place input) 0 (input-end input) before)
+    (loop until (or (input-at-end input) (> (input-end input) before))
+          do (funcall (input-before-waiting input))
+             (let ((end (read-octets (input-descriptor input) (input-octets input)
+                                     (input-octets-end input))))
+               (setf (input-at-end input) (= end (input-octets-end input))
+                     (input-octets-end input) end))
+             (decode input)
+             (skip-mark input))
+    (> (input-end input) before)))
+
+(defun skip-mark (input)
+  "Drop a byte order mark at the beginning of INPUT."
+  (when (and (input-fresh input) (plusp (input-end input)))
+    (setf (input-fresh input) nil)
+    (let ((characters (input-characters input)))
+      (when (char= (schar characters 0) (code-char #xfeff))
+        (replace characters characters :start2 1 :end2 (input-end input))
+        (decf (input-end input))))))
+
+;;; Pieces
+
+(defun record-start-p (input)
+  "True if the line at the place of INPUT starts a record: with (( or (SETQ, in JSON with {.
+The second value is true if more characters are needed to tell."
+  (let ((characters (input-characters input))
+        (place (input-place input))
+        (end (input-end input)))
+    (flet ((begins (prefix)
+             (let ((count (min (length prefix) (- end place))))
+               (and (string-equal prefix characters :end1 count
+                                                    :start2 place :end2 (+ place count))
+                    (if (= count (length prefix)) :yes :maybe)))))
+      (let ((answers (if (input-json input)
+                         (list (begins "{"))
+                         (list (begins "((") (begins "(SETQ")))))
+        (values (and (member :yes answers) t)
+                (and (member :maybe answers) t))))))
+
+(defun record-starts-p (input)
+  "True if the line at the place of INPUT starts a record; gets more characters if it must."
+  (loop
+    (multiple-value-bind (yes maybe) (record-start-p input)
+      (cond (yes (return t))
+            ((not maybe) (return nil))
+            ((not (more-characters input)) (return nil))))))
+
+(defun piece-end (input)
+  "Return where the piece that begins at the place of INPUT ends: before a line that may start a
+record, or where the characters end."
+  (let* ((characters (input-characters input))
+         (end (input-end input))
+         (first (if (input-json input) #\{ #\()))
+    (declare (type (simple-array character (*)) characters) (fixnum end))
+    (loop for place of-type fixnum from (input-place input) below end
+          do (when (and (char= (schar characters place) #\Newline)
+                        (or (= (1+ place) end)
+                            (char= (schar characters (1+ place)) first)))
+               (return (1+ place)))
+          finally (return end))))
+
+(defun next-piece (input)
+  "Return the characters of INPUT, the end and the start of the next piece of them; or NIL at the
+end, and where a line that starts a record ends the one that is open."
+  (cond ((and (= (input-place input) (input-end input)) (not (more-characters input)))
+         nil)
+        ((and (input-open input) (input-line-start input) (record-starts-p input))
+         (setf (input-cut input) t)
+         nil)
+        (t
+         (let ((start (input-place input))
+               (end (piece-end input)))
+           (setf (input-place input) end
+                 (input-line-start input)
+                 (char= (schar (input-characters input) (1- end)) #\Newline))
+           (values (input-characters input) end start)))))

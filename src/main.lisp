@@ -1,0 +1,281 @@
+;;;; main.lisp -- the command line: options, files, exit statuses.
+
+(in-package :supergrip)
+
+(defparameter +version+ (asdf:component-version (asdf:find-system "supergrip"))
+  "The version of SUPER-GRIP, a string.")
+
+(defparameter +help+
+  "usage: supergrip [OPTION]... [FILE]...
+
+Read boxes from each FILE, or from standard input without FILE or where FILE is -, and write one
+record a box to standard output, in the same order: the best of seven grasps for each.
+
+  --input sexp|json         what boxes look like; by default as the input begins
+  --format trace|sexp|json  what records look like: the paper's lines, one s-expression a line, or
+                            one JSON object a line; by default as the boxes
+  --rules FILE              rules to use instead of those that are built in
+  --grasps FILE             grasps and gripper to use instead of those that are built in
+  --gamma X                 from 0, forces alone, to 1, velocities alone; 0.5 by default
+  --check                   only read the rules and grasps, and say what is wrong with them
+  --depth-limit N           how deep lists may nest; 32 by default, 1000 at most
+  --record-limit N          the most characters of one box; 65536 by default, 1000000 at most
+  --number-limit N          the most characters of one number; 40 by default, 1000 at most
+  --name-limit N            the most characters of one name; 64 by default, 1000 at most
+  --help                    print this, and end
+  --version                 print the version, and end
+
+Exit status: 0 all boxes planned, also those that can't be grasped; 64 the command line is wrong;
+65 a box, a rule or a grasp is not valid (its record says why); 66 a file can't be opened;
+70 our fault; 74 output was lost; 130 after SIGINT, 143 after SIGTERM.
+
+Examples:
+  supergrip boxes.lisp > records.lisp
+  supergrip --format trace boxes.lisp
+  supergrip --input json < boxes.jsonl > records.jsonl
+  supergrip --check --rules my-rules.lisp
+  parallel --pipe -k --block 1M supergrip --input json < boxes.jsonl > records.jsonl
+"
+  "What --help prints.")
+
+(define-condition usage-error (error)
+  ((text :initarg :text :reader usage-error-text))
+  (:report (lambda (condition stream) (write-string (usage-error-text condition) stream)))
+  (:documentation "The command line is not valid."))
+
+(defun misused (control &rest arguments)
+  (error 'usage-error :text (apply #'format nil control arguments)))
+
+;;; Options
+
+(defparameter +options+
+  '(("--input" :input :choice "sexp" "json")
+    ("--format" :format :choice "trace" "sexp" "json")
+    ("--rules" :rules :file)
+    ("--grasps" :grasps :file)
+    ("--gamma" :gamma :gamma)
+    ("--depth-limit" :depth-limit :count 1000)
+    ("--record-limit" :record-limit :count 1000000)
+    ("--number-limit" :number-limit :count 1000)
+    ("--name-limit" :name-limit :count 1000)
+    ("--check" :check)
+    ("--help" :help)
+    ("--version" :version))
+  "Each option, its key, and what its value is, if it takes one.")
+
+(defun parse-command-line (arguments)
+  "Return a plist of the options in ARGUMENTS, a list of strings, and the list of the files."
+  (let ((options '()) (files '()))
+    (loop while arguments
+          do (let ((argument (pop arguments)))
+               (cond ((string= argument "--")
+                      (setf files (append (reverse arguments) files) arguments '()))
+                     ((or (string= argument "-") (not (eql 0 (search "-" argument))))
+                      (push argument files))
+                     (t
+                      (multiple-value-bind (key value rest) (parse-option argument arguments)
+                        (setf (getf options key) value
+                              arguments rest))))))
+    (values options (reverse files))))
+
+(defun parse-option (argument rest)
+  "Return the key and the value of the option ARGUMENT, as --gamma or --gamma=0.5, and what is left
+of REST, the arguments after it."
+  (let* ((equals (position #\= argument))
+         (name (subseq argument 0 equals))
+         (entry (assoc name +options+ :test #'string=)))
+    (unless entry
+      (misused "there is no option ~a~a" name (suggestion name (mapcar #'first +options+))))
+    (destructuring-bind (key &optional type &rest bounds) (rest entry)
+      (cond ((null type)
+             (when equals (misused "~a takes no value" name))
+             (values key t rest))
+            (equals
+             (values key (option-value name type bounds (subseq argument (1+ equals))) rest))
+            ((null rest) (misused "~a needs a value" name))
+            (t (values key (option-value name type bounds (first rest)) (rest rest)))))))
+
+(defun option-value (name type bounds text)
+  "Return the value of the option NAME that TEXT gives, or signal a USAGE-ERROR."
+  (ecase type
+    (:file (if (string= text "") (misused "~a needs the name of a file" name) text))
+    (:choice (if (member text bounds :test #'string=)
+                 (intern (if (string= text "sexp") "LISP" (string-upcase text)) :keyword)
+                 (misused "~a is ~{~a~#[~; or ~:;, ~]~}, not ~a" name bounds text)))
+    (:gamma (let ((number (text-number text)))
+              (if (and number (<= 0 number 1))
+                  number
+                  (misused "~a is a number from 0, forces alone, to 1, velocities alone, not ~a"
+                           name text))))
+    (:count (let ((number (text-number text)))
+              (if (and (integerp number) (<= 1 number (first bounds)))
+                  number
+                  (misused "~a is a whole number from 1 to ~d, not ~a" name (first bounds)
+                           text))))))
+
+(defun text-number (text)
+  "Return the number that TEXT is, or NIL."
+  (handler-case (let ((number (read-datum (string-source text))))
+                  (and (realp number) number))
+    (syntax-error () nil)))
+
+;;; Standard error
+
+(defun tell (control &rest arguments)
+  "Write a line to standard error, if that can be done."
+  (let ((output (make-output 2)))
+    (handler-case (progn (put-text output (apply #'format nil control arguments))
+                         (put-octet output 10)
+                         (flush-output output))
+      (system-failure () nil))))
+
+(defun follow-progress (batch)
+  "Return a function, to be called after each record of BATCH, that shows on the terminal how far a
+run of more than two seconds has come."
+  (let* ((start (get-internal-real-time))
+         (due (+ start (* 2 internal-time-units-per-second)))
+         (output (make-output 2)))
+    (lambda ()
+      (when (zerop (mod (batch-done batch) 64))
+        (let ((now (get-internal-real-time)))
+          (when (>= now due)
+            (setf due (+ now (floor internal-time-units-per-second 2)))
+            (show-progress batch (/ (- now start) internal-time-units-per-second) output)))))))
+
+(defun show-progress (batch seconds output)
+  (handler-case
+      (progn
+        (put-text output (format nil "~c~d boxes, ~d a second, ~d bad~c[K" #\Return
+                                 (batch-done batch) (floor (batch-done batch) seconds)
+                                 (batch-bad batch) (code-char 27)))
+        (flush-output output))
+    (system-failure () nil)))
+
+;;; Knowledge
+
+(defun knowledge-of (rules grasps)
+  "Return the knowledge of the files RULES and GRASPS, strings, or NIL for those that are built in.
+Signals a KNOWLEDGE-ERROR, or a SYSTEM-FAILURE if one can't be opened."
+  (flet ((readable (file)
+           (close-descriptor (open-descriptor file))
+           (uiop:parse-native-namestring file)))
+    (if (or rules grasps)
+        (load-knowledge :rules (if rules (readable rules) (shipped-file "rules.lisp"))
+                        :grasps (if grasps (readable grasps) (shipped-file "grasps.lisp")))
+        *knowledge*)))
+
+(defun try-knowledge (rules grasps)
+  "Return the knowledge of the files RULES and GRASPS; or NIL and the exit status, after a report."
+  (handler-case (handler-bind ((knowledge-warning (lambda (condition)
+                                                    (tell "~a" condition)
+                                                    (muffle-warning condition))))
+                  (knowledge-of rules grasps))
+    (knowledge-error (condition)
+      (tell "~a" condition)
+      (values nil 65))
+    (system-failure (condition)
+      (tell "supergrip: ~{~a~^ or ~}: ~a" (remove nil (list rules grasps)) condition)
+      (values nil 66))))
+
+(defun check (knowledge)
+  "Report that KNOWLEDGE has no mistakes."
+  (tell "~d rules and ~d grasps, no mistakes" (length (knowledge-rules knowledge))
+        (length (knowledge-grasps knowledge)))
+  0)
+
+;;; The run
+
+(defun run-file (batch file)
+  "Answer the boxes of FILE, a string, - for standard input.  Return NIL, or 66 after a report."
+  (handler-case
+      (let ((descriptor (if (string= file "-") 0 (open-descriptor file))))
+        (unwind-protect (run-batch batch descriptor)
+          (unless (zerop descriptor)
+            (close-descriptor descriptor)))
+        nil)
+    (read-failure (condition)
+      (tell "supergrip: ~a: ~a" file condition)
+      66)))
+
+(defun run-files (batch files)
+  "Answer the boxes of FILES, by default of standard input, and return the exit status."
+  (let ((statuses '()))
+    (handler-case
+        (loop for file in (or files '("-"))
+              until *signal*
+              do (push (run-file batch file) statuses))
+      (write-failure (condition)
+        (unless (closed-pipe-p condition)
+          (tell "supergrip: standard output: ~a; ~d records are complete at most" condition
+                (batch-done batch))
+          (push 74 statuses))))
+    (when (plusp (batch-bad batch)) (push 65 statuses))
+    (when (batch-broken batch) (push 70 statuses))
+    (report-end batch)
+    (cond ((find 70 statuses))
+          ((find 74 statuses))
+          (*signal* (signal-status *signal*))
+          ((find 66 statuses))
+          ((find 65 statuses))
+          (t 0))))
+
+(defun report-end (batch)
+  "Say on standard error what is not as it should be."
+  (when *signal*
+    (tell "supergrip: ended by ~a after ~d boxes" *signal* (batch-done batch)))
+  (when (plusp (batch-bad batch))
+    (tell "supergrip: ~d of ~d boxes are not valid; their records say why" (batch-bad batch)
+          (batch-done batch))))
+
+(defun print-and-end (text)
+  "Write TEXT to standard output, and return the exit status."
+  (let ((output (make-output 1)))
+    (handler-case (progn (put-text output text)
+                         (flush-output output)
+                         0)
+      (write-failure (condition)
+        (cond ((closed-pipe-p condition) 0)
+              (t (tell "supergrip: standard output: ~a" condition)
+                 74))))))
+
+(defun run (options files)
+  "Do what OPTIONS, a plist, and FILES say, and return the exit status."
+  (when (and (getf options :check) files)
+    (misused "--check reads no boxes: ~{~a~^, ~}" files))
+  (multiple-value-bind (knowledge status) (try-knowledge (getf options :rules)
+                                                         (getf options :grasps))
+    (cond ((null knowledge) status)
+          ((getf options :check) (check knowledge))
+          (t
+           (let ((batch (make-batch knowledge (check-gamma (getf options :gamma *gamma*))
+                                    (getf options :input) (getf options :format)
+                                    (make-output 1)))
+                 (*depth-limit* (getf options :depth-limit *depth-limit*))
+                 (*record-limit* (getf options :record-limit *record-limit*))
+                 (*number-limit* (getf options :number-limit *number-limit*))
+                 (*name-limit* (getf options :name-limit *name-limit*)))
+             (when (terminal-p 2)
+               (setf (batch-after-record batch) (follow-progress batch)))
+             (run-files batch files))))))
+
+(defun main (arguments)
+  "Do what ARGUMENTS, a list of strings, say, and return the exit status.  See --help."
+  (handler-case
+      (multiple-value-bind (options files) (parse-command-line arguments)
+        (cond ((getf options :help) (print-and-end +help+))
+              ((getf options :version)
+               (print-and-end (format nil "supergrip ~a~%" +version+)))
+              (t (run options files))))
+    (usage-error (condition)
+      (tell "supergrip: ~a~%Try supergrip --help." condition)
+      64)
+    (serious-condition (condition)
+      (tell "supergrip: our fault: ~a" condition)
+      70)))
+
+(defun main-and-end ()
+  "Be the program: do what the command line says, and end the process."
+  (never-debug)
+  (catch-signals)
+  (keep-small)
+  (end-process (main (command-arguments))))

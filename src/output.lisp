@@ -1,0 +1,117 @@
+;;;; output.lisp -- text and numbers as UTF-8 in a buffer, written when the buffer is full.
+
+(in-package :supergrip)
+
+(defstruct (output (:constructor make-output (descriptor)))
+  "Where records go.  END octets of BUFFER are not written yet."
+  (descriptor 1 :type fixnum)
+  (buffer (make-array 65536 :element-type '(unsigned-byte 8)) :type octets)
+  (end 0 :type fixnum))
+
+(defun flush-output (output)
+  "Write what is in the buffer of OUTPUT.  Signals a SYSTEM-FAILURE."
+  (let ((end (output-end output)))
+    ;; What could not be written is not written again.
+    (setf (output-end output) 0)
+    (write-octets (output-descriptor output) (output-buffer output) end)))
+
+(declaim (inline put-octet))
+(defun put-octet (output octet)
+  (declare (type output output) (type (unsigned-byte 8) octet))
+  (when (= (output-end output) (length (output-buffer output)))
+    (flush-output output))
+  (setf (aref (output-buffer output) (output-end output)) octet)
+  (incf (output-end output)))
+
+(defun put-code (output code)
+  "Put the character CODE, above 127, as UTF-8."
+  (declare (type (integer 0 #x10ffff) code))
+  (flet ((tail (shift)
+           (put-octet output (logior #x80 (ldb (byte 6 shift) code)))))
+    (cond ((< code #x800)
+           (put-octet output (logior #xc0 (ash code -6))))
+          ((< code #x10000)
+           (put-octet output (logior #xe0 (ash code -12)))
+           (tail 6))
+          (t
+           (put-octet output (logior #xf0 (ash code -18)))
+           (tail 12)
+           (tail 6)))
+    (tail 0)))
+
+(declaim (inline put-character))
+(defun put-character (output character)
+  (let ((code (char-code character)))
+    (if (< code 128)
+        (put-octet output code)
+        (put-code output code))))
+
+(defun put-text (output text)
+  "Put TEXT, a string, as it is."
+  (etypecase text
+    ((simple-array character (*)) (loop for c across text do (put-character output c)))
+    (simple-base-string (loop for c across text do (put-character output c)))
+    (string (loop for c across text do (put-character output c)))))
+
+(defun put-integer (output number)
+  "Put NUMBER, an integer, in decimal."
+  (cond ((minusp number)
+         (put-octet output 45)
+         (put-integer output (- number)))
+        ((typep number '(unsigned-byte 62)) (put-fixnum output number))
+        (t (put-text output (princ-to-string number)))))
+
+(defun put-fixnum (output number)
+  (declare (type (unsigned-byte 62) number))
+  (let ((power 1))
+    (declare (type (unsigned-byte 62) power))
+    (loop while (>= (truncate number power) 10)
+          do (setf power (* power 10)))
+    (loop
+      (multiple-value-bind (digit rest) (truncate number power)
+        (put-octet output (+ 48 digit))
+        (when (= power 1) (return))
+        (setf number rest
+              power (truncate power 10))))))
+
+(defun put-double (output number &optional lisp)
+  "Put the shortest decimal that reads back as NUMBER, a double: 0.86, 12.0, 1.5e-7.
+If LISP is true, mark it as a double: 0.86d0, 1.5d-7."
+  (declare (double-float number))
+  (when (minusp number)
+    (put-octet output 45)
+    (setf number (- number)))
+  (if (and (< number 1d15) (= number (ffloor number)))
+      (progn (put-fixnum output (truncate number))
+             (put-text output (if lisp ".0d0" ".0")))
+      (multiple-value-bind (digits exponent) (shortest-digits number)
+        (cond ((< -6 exponent 22)
+               (put-plain output digits exponent)
+               (when lisp (put-text output "d0")))
+              (t (put-scientific output digits exponent (if lisp #\d #\e)))))))
+
+(defun put-plain (output digits exponent)
+  "Put 0.DIGITS x 10^EXPONENT without an exponent."
+  (declare (simple-string digits) (fixnum exponent))
+  (let ((count (length digits)))
+    (cond ((<= exponent 0)
+           (put-text output "0.")
+           (loop repeat (- exponent) do (put-octet output 48))
+           (put-text output digits))
+          (t
+           (loop for place from 0 below (max exponent count)
+                 do (when (= place exponent) (put-octet output 46))
+                    (put-character output (if (< place count) (schar digits place) #\0)))
+           (when (>= exponent count) (put-text output ".0"))))))
+
+(defun put-scientific (output digits exponent mark)
+  "Put 0.DIGITS x 10^EXPONENT with one digit before the point, and MARK before the exponent."
+  (declare (simple-string digits) (fixnum exponent))
+  (put-character output (schar digits 0))
+  (put-octet output 46)
+  (if (= (length digits) 1)
+      (put-octet output 48)
+      (loop for place from 1 below (length digits)
+            do (put-character output (schar digits place))))
+  (put-character output mark)
+  (put-integer output (1- exponent)))

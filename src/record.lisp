@@ -1,0 +1,142 @@
+;;;; record.lisp -- what is said of one box: a plist, written as one line of Lisp or of JSON.
+
+(in-package :supergrip)
+
+(defun plan-record (plan &key line)
+  "Return the record of PLAN, a plist of strings, numbers, lists and NIL:
+
+:NAME  :LINE  the box's name, and LINE, where its description begins.
+:STATUS  \"grasp\" or \"cant\".
+:GRASP :MATCHING :QUALITY  of the best grasp, the faces for N1 N2 O1 O2 A1 A2.
+:U-W :U-T  the radii of forces and velocities; NIL where the task needs none.
+:LIMITING  (:FORCE axis :VELOCITY axis), as \"about Y\".
+:OFFSET  the grasp centre from the box centre, along X Y Z, in cm.
+:APPROACH  a unit vector in the box frame, from the palm to the box.
+:CONTACTS  a list of (:SURFACE face :POSITION along X Y Z, in cm, :NORMAL inward unit vector).
+:TRIED :POSSIBLE  how many candidates were tried, and how many of them are possible.
+:REASON  why the box can't be grasped."
+  (let ((best (plan-best plan))
+        (candidates (plan-candidates plan)))
+    (list* :name (box-name (plan-box plan))
+           :line line
+           :status (if best "grasp" "cant")
+           (append (if best (grasp-part best plan) (grasp-part nil nil))
+                   (list :tried (length candidates)
+                         :possible (count :possible candidates :key #'%candidate-outcome)
+                         :reason (plan-reason plan))))))
+
+(defun grasp-part (best plan)
+  "Return the part of a record that tells of the grasp BEST of PLAN, or of none."
+  (if (null best)
+      (list :grasp nil :matching nil :quality nil :u-w nil :u-t nil :limiting nil :offset nil
+            :approach nil :contacts nil)
+      (list :grasp (candidate-grasp best)
+            :matching (candidate-matching best)
+            :quality (candidate-quality best)
+            :u-w (candidate-force-radius best)
+            :u-t (candidate-velocity-radius best)
+            :limiting (list :force (candidate-force-axis best)
+                            :velocity (candidate-velocity-axis best))
+            :offset (candidate-offset best)
+            :approach (candidate-approach best)
+            :contacts (candidate-contacts best plan))))
+
+(defun error-record (problems &key name line)
+  "Return the record of a box that can't be used because of PROBLEMS: as PLAN-RECORD gives it, with
+:STATUS \"error\", the problems in one :REASON, and each in :PROBLEMS as (:LINE l :COLUMN c :TEXT t)."
+  (list* :name name
+         :line line
+         :status "error"
+         (append (grasp-part nil nil)
+                 (list :tried 0
+                       :possible 0
+                       :reason (format nil "~{~a~^; ~}" (mapcar #'problem-reason problems))
+                       :problems (loop for problem in problems
+                                       collect (list :line (problem-line problem)
+                                                     :column (problem-column problem)
+                                                     :text (problem-text problem)))))))
+
+(defun problem-reason (problem)
+  "Return PROBLEM as line LINE, column COLUMN: TEXT."
+  (format nil "~@[line ~d, ~]~@[column ~d: ~]~a" (problem-line problem) (problem-column problem)
+          (problem-text problem)))
+
+;;; Lisp
+
+(defun write-lisp-record (record output)
+  "Put RECORD into OUTPUT as one line that READ reads, and that prints no package."
+  (put-lisp record output)
+  (put-octet output 10))
+
+(defun put-lisp (value output)
+  (etypecase value
+    (null (put-text output "NIL"))
+    (string (put-lisp-string value output))
+    (integer (put-integer output value))
+    (double-float (put-double output value t))
+    (keyword (put-octet output 58)
+     (put-text output (symbol-name value)))
+    (cons (put-octet output 40)
+     (loop for (element . rest) on value
+           do (put-lisp element output)
+              (when rest (put-octet output 32)))
+     (put-octet output 41))))
+
+(defun put-lisp-string (text output)
+  "Put TEXT between double quotes.  Lisp has no escapes for control characters, and a record is one
+line: they become their pictures, as U+240A for a newline."
+  (put-octet output 34)
+  (loop for character across (the string text)
+        for code = (char-code character)
+        do (cond ((< code 32) (put-code output (+ #x2400 code)))
+                 (t (when (or (= code 34) (= code 92)) (put-octet output 92))
+                    (put-character output character))))
+  (put-octet output 34))
+
+;;; JSON
+
+(defun write-json-record (record output)
+  "Put RECORD into OUTPUT as one line of JSON: a plist is an object, :U-W the key \"u_w\", another
+list an array, NIL null."
+  (put-json record output)
+  (put-octet output 10))
+
+(defun put-json (value output)
+  (etypecase value
+    (null (put-text output "null"))
+    (string (put-json-string value output))
+    (integer (put-integer output value))
+    (double-float (put-double output value))
+    (cons (if (keywordp (first value))
+              (put-json-object value output)
+              (put-json-array value output)))))
+
+(defun put-json-object (plist output)
+  (put-octet output 123)
+  (loop for (key value . rest) on plist by #'cddr
+        do (put-text output (json-key key))
+           (put-json value output)
+           (when rest (put-octet output 44)))
+  (put-octet output 125))
+
+(defun put-json-array (list output)
+  (put-octet output 91)
+  (loop for (element . rest) on list
+        do (put-json element output)
+           (when rest (put-octet output 44)))
+  (put-octet output 93))
+
+(defun json-key (key)
+  "Return KEY, a keyword of a record, as JSON, with the colon: \"u_w\":"
+  (or (get key 'json-key)
+      (setf (get key 'json-key)
+            (format nil "\"~a\":" (substitute #\_ #\- (string-downcase key))))))
+
+(defun put-json-string (text output)
+  (put-octet output 34)
+  (loop for character across (the string text)
+        for code = (char-code character)
+        do (cond ((< code 32) (put-text output (format nil "\\u~4,'0x" code)))
+                 (t (when (or (= code 34) (= code 92)) (put-octet output 92))
+                    (put-character output character))))
+  (put-octet output 34))

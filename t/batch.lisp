@@ -1,0 +1,313 @@
+;;;; batch.lisp -- many boxes through the executable: every one has its record, whatever comes.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defvar *program* nil "The executable that these tests have made.")
+
+(defun program ()
+  "Return the name of the executable, made when it is first asked for."
+  (or *program*
+      (let ((file (format nil "~asupergrip-test-~36r/supergrip"
+                          (uiop:native-namestring (uiop:temporary-directory))
+                          (random (expt 36 8) (make-random-state t)))))
+        (multiple-value-bind (status output errors)
+            (run-process (append (script "src/build.lisp") (list file)))
+          (unless (eql status 0)
+            (error "the executable can't be made: ~a~a" output errors)))
+        (setf *program* file))))
+
+(defun remove-program ()
+  (when *program*
+    (uiop:delete-directory-tree (uiop:pathname-directory-pathname *program*) :validate t)
+    (setf *program* nil)))
+
+(defun octets (text)
+  "Return TEXT, a string, octets, or a list of both, as octets."
+  (etypecase text
+    (string (sb-ext:string-to-octets text :external-format :utf-8))
+    (list (apply #'concatenate '(vector (unsigned-byte 8)) (mapcar #'octets text)))
+    (vector text)))
+
+(defun run-on (text command)
+  "Run COMMAND with TEXT on its standard input.  Return its status, output and errors."
+  (uiop:with-temporary-file (:stream out :pathname file :element-type '(unsigned-byte 8))
+    (write-sequence (octets text) out)
+    :close-stream
+    (run-process (list* "timeout" "60" command) :input file)))
+
+(defun answers (text &rest options)
+  "Let the executable answer the boxes of TEXT.  Return its records, status and errors."
+  (multiple-value-bind (status output errors)
+      (run-on text (list* (program) "--format" "json" options))
+    (values (mapcar #'json-record (lines-of output)) status errors)))
+
+(defun statuses (records)
+  "Return the status of each of RECORDS; where it is error, the reason."
+  (loop for record in records
+        collect (if (equal (getf record :status) "error")
+                    (getf record :reason)
+                    (getf record :status))))
+
+(defparameter *pencil*
+  "((SIZE 12 2 2) (WEIGHT 0.2) (u 0.8) (v 0.2) (CONSTRAINED Z2 X1)
+ (FORCE-NEEDED (1 0.8 0.8 0.3 1 1)) (VELOCITY-NEEDED (0 0.8 0.8 0 0.8 0.8)))")
+
+(defparameter *json-pencil*
+  "{\"size\": [12, 2, 2], \"weight\": 0.2, \"u\": 0.8, \"v\": 0.2, \"constrained\": [\"Z2\", \"X1\"],
+ \"force_needed\": [1, 0.8, 0.8, 0.3, 1, 1], \"velocity_needed\": [0, 0.8, 0.8, 0, 0.8, 0.8]}")
+
+(defun changed (text old new)
+  "Return TEXT with NEW in place of the first OLD."
+  (let ((start (search old text)))
+    (concatenate 'string (subseq text 0 start) new (subseq text (+ start (length old))))))
+
+(defun one-line (text) (substitute #\Space #\Newline text))
+(defun repeated (count text) (format nil "~v@{~a~:*~}" count text))
+
+;;; Where records begin and end
+
+(test every-box-or-fragment-has-one-record
+  (let ((pencil (one-line *pencil*)))
+    (loop for (name text . expected) in
+          `(("two on a line" (,pencil " " ,pencil) "grasp" "grasp")
+            ("over many lines" (,*pencil* "
+" ,*pencil*) "grasp" "grasp")
+            ("the paper's form" ("(SETQ BOX '" ,*pencil* ")
+; a comment ((
+'" ,pencil) "grasp" "grasp")
+            ("a parenthesis too few" (,(subseq pencil 0 (1- (length pencil))) "
+" ,pencil) "line 1, column 1: this parenthesis is never closed before line 2, which starts another record" "grasp")
+            ("a quote too few" ("((NAME \"a) (SIZE 1 2 3))
+" ,pencil "
+(setq box '" ,pencil ")") "line 1, column 8: this string is never closed before line 2, which starts another record" "grasp" "grasp")
+            ("a parenthesis too many" (,pencil ")
+" ,pencil) "grasp" ,(format nil "line 1, column ~d: a closing parenthesis too many" (1+ (length pencil))) "grasp")
+            ("something bad inside" ("((SIZE #(1 2 3)) (NAME \"(\") ; (
+) " ,pencil) "line 1, column 8: # can't stand in a name or a number" "grasp")
+            ("words" ("hello, world (( 1 2
+" ,pencil) "line 1, column 6: , can't stand in a name or a number"
+                       "line 1, column 15: this parenthesis is never closed before line 2, which starts another record" "grasp")
+            ("one word" ("hello world
+" ,pencil) "line 1, column 1: HELLO is not a box description: it is a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)" "grasp")
+            ("an open end" (,pencil "
+((SIZE 12") "grasp" "line 2, column 2: this parenthesis is never closed"))
+          do (let ((statuses (statuses (answers text))))
+               (is (= (length expected) (length statuses)) "~a: ~s" name statuses)
+               (is (every (lambda (expected status) (eql 0 (search expected status)))
+                          expected statuses)
+                   "~a: ~s" name statuses)))))
+
+(test every-json-value-or-fragment-has-one-record
+  (let ((pencil (one-line *json-pencil*)))
+    (loop for (name text . expected) in
+          `(("one a line" (,pencil "
+" ,pencil) "grasp" "grasp")
+            ("over many lines" (,*json-pencil* "
+" ,*json-pencil*) "grasp" "grasp")
+            ("an array" ("[" ,pencil ", " ,pencil "]") "grasp" "grasp")
+            ("an array over many lines" ("[
+" ,*json-pencil* ",
+  " ,pencil "
+]
+") "grasp" "grasp")
+            ("an empty array" ("[ ]"))
+            ("a brace too few" (,(subseq pencil 0 (1- (length pencil))) "
+" ,pencil) "line 1, column 1: this object is never closed before line 2" "grasp")
+            ("a bracket too few" (,(remove #\] pencil :count 1) "
+" ,pencil) "line 1, column" "grasp")
+            ("a bracket too few in an array" ("[" ,(remove #\] pencil :count 1) ", " ,pencil "]")
+             "line 1, column" "grasp")
+            ("a quote too few" (,(remove #\" pencil :count 1) "
+" ,pencil) "line 1, column 2: s stands where a key in double quotes should" "grasp")
+            ("words" ("hello {
+" ,pencil) "line 1, column 1: hello is not JSON" "line 1, column 7: this object is never closed before line 2" "grasp")
+            ("numbers" ("1 2 3
+" ,pencil) "line 1, column 1: 1 is not a box description: it is an object as {\"size\"" "grasp")
+            ("values in an array" ("[1, [2, 3], null, " ,pencil ", \"x\"]")
+             "line 1, column 2: 1 is not" "line 1, column 5: [2, 3] is not" "line 1, column 13: null is not"
+             "grasp" "line 1, column")
+            ("no comma in an array" ("[" ,pencil " " ,pencil "]") "grasp" "line 1, column")
+            ("a comma too many" ("[" ,pencil ",, " ,pencil ",]") "grasp" "line 1" "grasp" "line 1")
+            ("an open array" ("[" ,pencil) "grasp" "line 1, column 1: this array is never closed")
+            ("a bracket by chance" ("[
+" ,pencil "
+" ,pencil) "grasp" "line 1, column 1: this array is never closed" "grasp")
+            ("two arrays" ("[" ,pencil "]
+[" ,pencil "]") "grasp" "grasp"))
+          do (let ((statuses (statuses (answers text "--input" "json"))))
+               (is (= (length expected) (length statuses)) "~a: ~s" name statuses)
+               (is (every (lambda (expected status) (eql 0 (search expected status)))
+                          expected statuses)
+                   "~a: ~s" name statuses)))))
+
+(test mistakes-in-json-boxes-are-told-in-json
+  (loop for (old new report) in
+        '(("[12, 2, 2]" "[12, 2]" "\"size\": [12, 2] is not valid: \"size\" takes three sizes in cm, above 0: \"size\": [12, 2, 2]")
+          ("[12, 2, 2]" "12" "\"size\": 12 is not valid")
+          ("[12, 2, 2]" "[12, 2, \"2\"]" "\"size\": [12, 2, \"2\"] is not valid")
+          ("[12, 2, 2]" "[12, 2, {\"a\": null}]" "\"size\": [12, 2, {\"a\": null}] is not valid")
+          ("0.2," "[0.2]," "\"weight\": [0.2] is not valid")
+          ("0.2," "true," "\"weight\": true is not valid")
+          ("\"weight\"" "\"Weight\"" "unknown key \"Weight\" (did you mean weight?); keys are \"size\", \"weight\"")
+          ("\"weight\"" "\"size\"" "\"size\" is given twice")
+          ("\"weight\": 0.2, " "" "\"weight\" is missing; it takes one number from 0, in finger forces: \"weight\": 0.2")
+          ("\"Z2\"" "\"Z3\"" "\"Z3\" is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
+          ("\"Z2\"" "7" "7 is no surface of a box")
+          ("\"Z2\"" "\"X1\"" "\"X1\" is constrained twice")
+          ("[\"Z2\", \"X1\"]" "\"Z2\"" "\"constrained\": \"Z2\" is not valid")
+          ("[1, 0.8, 0.8, 0.3, 1, 1]" "[1, 1.1]" "\"force_needed\": [1, 1.1] is not valid")
+          ("[1, 0.8, 0.8, 0.3, 1, 1]" "null" "\"force_needed\": null is not valid")
+          ("{" "{\"name\": 12, " "\"name\": 12 is not valid: \"name\" takes one string"))
+        do (let ((records (answers (changed (one-line *json-pencil*) old new))))
+             (is (= 1 (length records)))
+             (is (search report (getf (first records) :reason)) "~a~%~a" report records))))
+
+(test the-name-of-a-bad-box-is-in-its-record
+  (dolist (text '("((NAME \"bad\") (SIZE 1))" "{\"name\": \"bad\", \"size\": 1}"))
+    (is (equal "bad" (getf (first (answers text)) :name)))))
+
+;;; Nasty input
+
+(defparameter *nasty*
+  (flet ((with (old new) (changed (one-line *pencil*) old new)))
+    `(("empty" "")
+      ("only blanks" ,(format nil " ~%~c~%" #\Tab))
+      ("only comments" ,(format nil "; ((~%;"))
+      ("to be evaluated" "#.(quit)" :any)
+      ("a million parentheses" ,(make-string 1000000 :initial-element #\() "nest deeper than 32")
+      ("10^400" ,(with "0.8" (format nil "1~400,,,'0a" "")) "a number of 401 characters")
+      ("1e999" ,(with "0.8" "1e999") "1e999 is out of range")
+      ("1e-999" ,(with "0.8" "1e-999") "1e-999 is out of range")
+      ("NaN" ,(with "0.8" "NaN") "(U NAN) is not valid")
+      ("1/0" ,(with "0.8" "1/0") "1/0 divides by zero")
+      ("negative zero" ,(with "0.2" "-0.0") :planned)
+      ("a million digits" ,(with "0.8" (make-string 1000000 :initial-element #\7))
+       "longer than 65536 characters")
+      ("a duplicate key" ,(with "(u 0.8)" "(u 0.8) (U 0.8)") "U is given twice")
+      ("an unknown key" ,(with "(u 0.8)" "(u 0.8) (colour 1)") "unknown key COLOUR")
+      ("full-width letters" ,(with "(u" "(ｕ") "ｕ can't stand in a name")
+      ("full-width digits" ,(with "12" "１２") "can't stand in a name")
+      ("UTF-8 in a name" ,(with "(u" "(NAME \"käse 😀\") (u") :planned)
+      ("CRLF" ,(format nil "~a~c~%" (with "0.8" "0.8") #\Return) :planned)
+      ("no final newline" ,(with "0.8" "0.8") :planned)
+      ("NUL" ,(with "0.8" (format nil "0.8~c" (code-char 0))) "character 0 can't stand")
+      ("NUL in a name" ,(with "(u" (format nil "(NAME \"a~cb\") (u" (code-char 0))) :planned)
+      ("invalid UTF-8" (,(with "(u" "(NAME \"a") #(255 192 128 237 160 128) "\") (u 1)") :any)
+      ("invalid UTF-8 in a name" ("((NAME \"a" #(255 192 128 237 160 128 240 159) "z\")"
+                                  ,(subseq (one-line *pencil*) 1))
+       :planned)
+      ("a byte order mark" (#(239 187 191) ,(one-line *pencil*)) :planned)
+      ("a subnormal" ,(with "0.8" "5e-324") "out of range")))
+  "Name, text, and what must come: nothing, :PLANNED, :ANY, or a part of the reason of the error.")
+
+(test nasty-input-costs-its-own-record-only
+  (loop for (name text expected) in *nasty*
+        do (multiple-value-bind (records status errors) (answers (list text (format nil "~%") *pencil*))
+             (is (member status '(0 65)) "~a: ~a ~a" name status errors)
+             (is (equal "grasp" (getf (first (last records)) :status)) "~a: ~s" name records)
+             (case expected
+               ((nil) (is (= 1 (length records)) "~a: ~s" name records))
+               (:any)
+               (t (is (= 2 (length records)) "~a: ~s" name records)
+                (if (eq expected :planned)
+                    (is (equal "grasp" (getf (first records) :status)) "~a: ~s" name records)
+                    (is (search expected (getf (first records) :reason)) "~a: ~s" name records)))))))
+
+(test what-is-not-utf-8-becomes-replacement-characters
+  (let ((records (answers (list "((NAME \"a" #(255 192 128 237 160 128 240 159) "z\")"
+                                (subseq *pencil* 1)))))
+    (is (equal (format nil "a~v@{~a~:*~}z" 7 (code-char #xfffd)) (getf (first records) :name)))))
+
+(test nasty-json-costs-its-own-record-only
+  (flet ((with (old new) (changed (one-line *json-pencil*) old new)))
+    (loop for (name text expected) in
+          `(("empty" "")
+            ("a million brackets" ,(make-string 1000000 :initial-element #\[) "never closed")
+            ("a million braces" ,(repeated 300000 "{\"a\":") "nest deeper than 32")
+            ("1e999" ,(with "0.8" "1e999") "1e999 is out of range")
+            ("NaN" ,(with "0.8" "NaN") "NaN is not JSON")
+            ("Infinity" ,(with "0.8" "Infinity") "Infinity is not JSON")
+            ("a ratio" ,(with "0.8" "1/2") "/ stands where a comma or } should")
+            ("negative zero" ,(with "0.2" "-0.0") :planned)
+            ("a million digits" ,(with "0.8" (make-string 1000000 :initial-element #\7))
+             "longer than 65536 characters")
+            ("a duplicate key" ,(with "\"u\": 0.8" "\"u\": 0.8, \"u\": 0.8") "\"u\" is given twice")
+            ("an unknown key" ,(with "\"u\"" "\"colour\": 1, \"u\"") "unknown key \"colour\"")
+            ("a newline in a name" ,(with "{" "{\"name\": \"a\\nb\", ") :planned)
+            ("NUL in a name" ,(with "{" "{\"name\": \"a\\u0000b\", ") :planned)
+            ("NUL itself in a name" ,(with "{" (format nil "{\"name\": \"~c\", " (code-char 0)))
+             "character 0 must be written as \\u0000")
+            ("half a character" ,(with "{" "{\"name\": \"\\ud800\", ") :planned)
+            ("invalid UTF-8 in a name" ("{\"name\": \"" #(255 254) "\", "
+                                        ,(subseq (one-line *json-pencil*) 1))
+             :planned))
+          do (multiple-value-bind (records status errors)
+                 (answers (list text (format nil "~%") *json-pencil*) "--input" "json")
+               (is (member status '(0 65)) "~a: ~a ~a" name status errors)
+               (is (find "grasp" (last records 2) :key (lambda (record) (getf record :status))
+                                                  :test #'equal)
+                   "~a: ~s" name records)
+               (cond ((null expected) (is (= 1 (length records)) "~a: ~s" name records))
+                     ((eq expected :planned)
+                      (is (equal '("grasp" "grasp") (statuses records)) "~a: ~s" name records))
+                     (t (is (some (lambda (record) (search expected (getf record :reason)))
+                                  records)
+                            "~a: ~s" name records)))))))
+
+(test a-line-of-a-hundred-megabytes-is-no-matter
+  (is (equal '("0" "2 2")
+             (lines-of
+              (nth-value 1 (run-process
+                            (list "bash" "-c"
+                                  "{ head -c 100000000 /dev/zero | tr '\\0' x; echo; echo \"$1\"; } \\
+                                   | timeout 60 \"$0\" --dynamic-space-size 256MB > \"$2\" 2> /dev/null
+                                   [ $? = 65 ]; echo $?
+                                   echo $(wc -l < \"$2\") $(grep -c :LINE \"$2\")"
+                                  (program) (one-line *pencil*)
+                                  (format nil "~a.out" (program)))))))))
+
+;;; The same plan everywhere
+
+(test batch-plans-as-the-repl-does
+  (let ((*read-default-float-format* 'single-float) (boxes '()))
+    (for-random-boxes (box 40 43) (push box boxes))
+    ;; Single floats, as they are typed at the REPL.
+    (push '((size 12.3 2.1 2.7) (weight 0.2) (u 0.8) (v 0.2) (constrained z2 x1)
+            (force-needed (1 0.8 0.8 0.3 1 1)) (velocity-needed (0 0.8 0.8 0 0.8 0.8)))
+          boxes)
+    (let* ((text (let ((*print-pretty* nil) (*package* (find-package :supergrip-test)))
+                   (format nil "~{~s~%~}" boxes)))
+           (records (answers text)))
+      (is (= (length boxes) (length records)))
+      (loop for box in boxes
+            for record in records
+            for line from 1
+            do (is (equal (supergrip::plan-record (supergrip:plan box) :line line) record)
+                   "~s" box)))))
+
+(test a-pipe-that-pauses-is-answered-at-once
+  (dolist (pencil (list *pencil* *json-pencil*))
+    (let ((process (uiop:launch-program (list (program)) :input :stream :output :stream)))
+      (unwind-protect
+           (let ((in (uiop:process-info-input process)) (out (uiop:process-info-output process)))
+             (loop repeat 3
+                   do (write-string (one-line pencil) in)
+                      (finish-output in)
+                      (is (search "PINCH-3-PARALLEL" (sb-ext:with-timeout 10 (read-line out)))))
+             (close in)
+             (is (eql 0 (uiop:wait-process process))))
+        (uiop:terminate-process process)))))
+
+(test what-is-spoiled-by-chance-is-answered
+  (loop for (command count seed) in `(((,(program) "--dynamic-space-size" "256MB") 9000 11)
+                                      (,(script "examples/batch.lisp") 1000 12))
+        do (dolist (notation '(:lisp :json))
+             (format t "~&   ~d spoiled boxes, seed ~d~%" count seed)
+             (is (null (supergrip-fuzzer:fuzz-boxes
+                        command notation count seed
+                        (uiop:pathname-directory-pathname (program))))))))
+
+(test spoiled-rules-and-grasps-are-refused-or-work
+  (format t "~&   2000 spoiled rules and grasps, seed 13~%")
+  (is (null (supergrip-fuzzer:fuzz-knowledge 2000 13))))

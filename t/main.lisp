@@ -1,0 +1,240 @@
+;;;; main.lisp -- the command line: every option and every exit status, by running the command.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defun shell (command &rest arguments)
+  "Run COMMAND by bash, the executable being $0 and ARGUMENTS $1 and so on."
+  (multiple-value-bind (status output errors)
+      (run-process (list* "timeout" "60" "bash" "-c" command (program) arguments))
+    (list status output errors)))
+
+(defun status-of (text &rest options)
+  (nth-value 0 (run-on text (cons (program) options))))
+
+(defmacro with-text-file ((name text) &body body)
+  "Run BODY with NAME bound to the name of a file that holds TEXT."
+  `(uiop:with-temporary-file (:stream out :pathname ,name)
+     (write-string ,text out)
+     :close-stream
+     (let ((,name (uiop:native-namestring ,name)))
+       ,@body)))
+
+(test the-script-does-what-the-executable-does
+  (dolist (options '(() ("--format" "json") ("--format=trace") ("--help") ("--version")
+                     ("--gamma" "0.9")))
+    (multiple-value-bind (status output errors) (run-on *pencil* (cons (program) options))
+      (is (eql 0 status))
+      (is (equal "" errors))
+      (multiple-value-bind (script-status script-output)
+          (run-on *pencil* (append (script "examples/batch.lisp") options))
+        (is (eql status script-status))
+        (is (equal output script-output) "~a" options)))))
+
+(test formats-and-notations
+  (let ((session (file-text "t/pencil-session.txt")))
+    (dolist (pencil (list *pencil* *json-pencil*))
+      (is (equal session (nth-value 1 (run-on pencil (list (program) "--format" "trace")))))
+      (is (eql #\{ (char (nth-value 1 (run-on pencil (list (program) "--format" "json"))) 0)))
+      (is (eql #\( (char (nth-value 1 (run-on pencil (list (program) "--format" "sexp"))) 0)))))
+  (is (eql #\( (char (nth-value 1 (run-on *pencil* (list (program)))) 0)))
+  (is (eql #\{ (char (nth-value 1 (run-on *json-pencil* (list (program)))) 0)))
+  (is (eql 65 (status-of *pencil* "--input" "json")))
+  (is (eql 65 (status-of *json-pencil* "--input" "sexp")))
+  (is (search "(BAD BOX: line 1, column 1: WEIGHT is missing"
+              (nth-value 1 (run-on "((SIZE 1 1 1))" (list (program) "--format" "trace"))))))
+
+(test gamma-weighs
+  (flet ((quality (gamma)
+           (getf (first (answers *pencil* "--gamma" gamma)) :quality)))
+    (is (close-to (supergrip:plan-quality (supergrip:plan *good-box* :gamma 1)) (quality "1")))
+    (is (close-to (supergrip:plan-quality (supergrip:plan *good-box* :gamma 0.25d0))
+                  (quality "1/4")))))
+
+(test wrong-command-lines-give-64
+  (loop for (report . options) in
+        '(("there is no option --fromat (did you mean --format?)" "--fromat" "json")
+          ("--format is trace, sexp or json, not xml" "--format" "xml")
+          ("--input is sexp or json, not trace" "--input=trace")
+          ("--format needs a value" "--format")
+          ("--rules needs the name of a file" "--rules" "")
+          ("--check takes no value" "--check=yes")
+          ("--gamma is a number from 0, forces alone, to 1, velocities alone, not 1.5" "--gamma" "1.5")
+          ("not NaN" "--gamma" "NaN") ("not #.(quit)" "--gamma" "#.(quit)")
+          ("--depth-limit is a whole number from 1 to 1000, not 1001" "--depth-limit" "1001")
+          ("--record-limit is a whole number" "--record-limit" "0.5")
+          ("--number-limit is a whole number" "--number-limit" "0")
+          ("--name-limit is a whole number" "--name-limit" "x")
+          ("--check reads no boxes: x" "--check" "x")
+          ("there is no option -x" "-x"))
+        do (multiple-value-bind (status output errors) (run-on "" (cons (program) options))
+             (is (eql 64 status) "~a: ~a" options status)
+             (is (equal "" output))
+             (is (search report errors) "~a: ~a" options errors))))
+
+(test limits-can-be-changed
+  (loop for (options text report) in
+        '((("--depth-limit" "2") "((SIZE (1)))" "nest deeper than 2")
+          (("--record-limit" "9") "((SIZE 1 2 3))" "longer than 9 characters")
+          (("--number-limit" "3") "((SIZE 1.000))" "a number of 5 characters; at most 3")
+          (("--name-limit" "3") "((SIZE 1))" "a name of 4 characters; at most 3")
+          (("--depth-limit" "40") "((((((((((((((((((((((((((((((((((((()))))))))))))))))))))))))))))))))))))"
+           "is not a part of a box")
+          (("--number-limit" "60") "((SIZE 1 1 1.00000000000000000000000000000000000000000000))"
+           "WEIGHT is missing"))
+        do (is (search report (getf (first (apply #'answers text options)) :reason))
+               "~a: ~s" options (apply #'answers text options))))
+
+(test check-reads-rules-and-grasps
+  (destructuring-bind (status output errors) (shell "\"$0\" --check")
+    (is (eql 0 status))
+    (is (equal "" output))
+    (is (equal (format nil "15 rules and 7 grasps, no mistakes~%") errors)))
+  (with-text-file (rules "(RULE A (IF (SLIPPERY)) (THEN (TRY NO-SUCH-GRASP)))")
+    (loop for options in '("--check" "")
+          do (destructuring-bind (status output errors)
+                 (shell (format nil "\"$0\" ~a --rules \"$1\" < /dev/null" options) rules)
+               (is (eql 65 status))
+               (is (equal "" output))
+               (is (search ":1: RULE A, action 1: TRY names NO-SUCH-GRASP" errors))))))
+
+(test rules-and-grasps-of-ones-own
+  (with-text-file (rules "(RULE MINE (IF (CONSTRAINED (s1))) (THEN (CANT MY REASON)))")
+    (is (equal "CANT MY REASON" (getf (first (answers *pencil* "--rules" rules)) :reason)))
+    (with-text-file (grasps (file-text "grasps.lisp"))
+      (is (equal "grasp" (getf (first (answers *pencil* "--grasps" grasps)) :status)))
+      (is (equal "CANT MY REASON"
+                 (getf (first (answers *pencil* "--grasps" grasps "--rules" rules)) :reason))))))
+
+(test rules-that-cannot-be-used
+  (is (eql 66 (status-of *pencil* "--rules" "/no/such/file")))
+  (is (eql 66 (status-of *pencil* "--grasps" "/no/such/file")))
+  (with-text-file (empty "")
+    (is (eql 65 (status-of *pencil* "--rules" empty)))
+    (is (eql 65 (status-of *pencil* "--grasps" empty))))
+  (with-text-file (spoiled "(RULE A (IF (SLIPPERY)) (THEN (CANT #.(quit))))")
+    (destructuring-bind (status output errors) (shell "\"$0\" --rules \"$1\"" spoiled)
+      (is (eql 65 status))
+      (is (equal "" output))
+      (is (search ":1:37: # can't stand in a name or a number" errors))))
+  (is (member (status-of *pencil* "--rules" "/") '(65 66))))
+
+(test files-are-read-in-turn
+  (with-text-file (a *pencil*)
+    (with-text-file (b *json-pencil*)
+      (destructuring-bind (status output errors)
+          (shell "\"$0\" --format json \"$1\" /no/such/file - -- \"$2\" < \"$1\"" a b)
+        (is (eql 66 status))
+        (is (= 3 (length (lines-of output))))
+        (is (equal (format nil "supergrip: /no/such/file: can't be opened: No such file or directory~%")
+                   errors)))
+      (is (eql 66 (first (shell "\"$0\" /no/such/file \"$1\"" (format nil "~a" a)))))
+      (is (eql 66 (first (shell "echo '((' | \"$0\" / -"))) "66 before 65"))))
+
+(test statuses-of-boxes
+  (is (eql 0 (status-of "")))
+  (is (eql 0 (status-of (changed *pencil* "0.2" "1000"))) "a box that can't be grasped is planned")
+  (is (eql 65 (status-of "((SIZE 1))"))))
+
+(test lost-output-gives-74
+  (destructuring-bind (status output errors)
+      (shell "\"$0\" < \"$1\" > /dev/full" (let ((file (format nil "~a.in" (program))))
+                                         (with-open-file (out file :direction :output
+                                                                   :if-exists :supersede)
+                                           (write-string *pencil* out))
+                                         file))
+    (declare (ignore output))
+    (is (eql 74 status))
+    (is (search "standard output: can't be written: No space left on device" errors)))
+  (is (eql 74 (first (shell "\"$0\" --help > /dev/full"))))
+  (is (eql 74 (first (shell "echo '((SIZE 1))' | \"$0\" / - > /dev/full"))) "74 before 66 and 65")
+  (is (eql 74 (first (shell "echo '((SIZE 1))' | \"$0\" >&-")))))
+
+(test a-reader-that-closes-early-ends-it-quietly
+  (is (equal (list 0 (format nil "0~%") "")
+             (shell "{ yes \"$1\" 2> /dev/null | \"$0\"; echo ${PIPESTATUS[1]} > \"$0.status\"; } | head -n 1 > /dev/null
+                     cat \"$0.status\""
+                    (one-line *pencil*)))))
+
+(defun send-signal (name process)
+  (uiop:run-program (list "kill" (format nil "-~a" name)
+                          (princ-to-string (uiop:process-info-pid process)))))
+
+(defun read-lines (stream)
+  "Return the lines that STREAM still has."
+  (loop for line = (read-line stream nil) while line collect line))
+
+(defun signalled-run (name command records)
+  "Run COMMAND, send it the signal NAME after so many RECORDS, and return its status, all its
+records and what it said."
+  (let* ((process (uiop:launch-program command :input :stream :output :stream
+                                               :error-output :stream))
+         (output (uiop:process-info-output process)))
+    (write-line (one-line *pencil*) (uiop:process-info-input process))
+    (finish-output (uiop:process-info-input process))
+    (let ((first (loop repeat records collect (read-line output))))
+      (send-signal name process)
+      (let ((rest (read-lines output))
+            (errors (format nil "~{~a~%~}" (read-lines (uiop:process-info-error-output process)))))
+        (values (uiop:wait-process process) (append first rest) errors)))))
+
+(test signals-end-after-the-record-in-hand
+  (loop for (name status) in '(("INT" 130) ("TERM" 143))
+        do (loop for (command records) in
+                 `(((,(program)) 1)     ; waits for input
+                   (("bash" "-c" "exec \"$0\" < <(yes \"$1\" 2> /dev/null)" ,(program)
+                            ,(one-line *pencil*))
+                    1000))              ; busy
+                 do (multiple-value-bind (exit lines errors) (signalled-run name command records)
+                      (is (eql status exit))
+                      (is (search "REASON NIL)" (first (last lines))) "the last record is whole")
+                      (is (search (format nil "ended by SIG~a after ~d boxes" name (length lines))
+                                  errors)
+                          "~a ~a" (length lines) errors)))))
+
+(test progress-is-for-terminals
+  (flet ((errors (command)
+           (third (shell command (one-line *pencil*)))))
+    (is (equal "" (errors "yes \"$1\" 2> /dev/null | head -n 80000 | \"$0\" > /dev/null"))))
+  (when (uiop:file-exists-p "/usr/bin/script")
+    (is (search " a second, 0 bad"
+                (second (shell "export PENCIL=\"$1\"; script -qec \"yes \\\"\\$PENCIL\\\" | head -n 100000 | $0 > /dev/null\" /dev/null < /dev/null"
+                               (one-line *pencil*)))))))
+
+(test pythons-json-reads-every-record
+  (if (zerop (first (shell "python3 -c 'import json'")))
+      (destructuring-bind (status output errors)
+          (shell "cat \"$1\" | \"$0\" --input json --format json | python3 -c '
+import json, sys
+for line in sys.stdin:
+    record = json.loads(line)
+    assert set(record) >= {\"name\", \"line\", \"status\", \"grasp\", \"matching\", \"quality\", \"u_w\",
+        \"u_t\", \"limiting\", \"offset\", \"approach\", \"contacts\", \"tried\", \"possible\", \"reason\"}
+    print(json.dumps(record))' > \"$0.json\"
+cat \"$1\" | \"$0\" --input json --format sexp" (format nil "~afuzz-json.in" (directory-namestring (program))))
+        (declare (ignorable status errors))
+        ;; What Python wrote, and what the other format says.
+        (let ((lines (lines-of (uiop:read-file-string (format nil "~a.json" (program))
+                                                      :external-format :utf-8)))
+              (records (lines-of output)))
+          (is (plusp (length lines)))
+          (is (= (length lines) (length records)))
+          (is (loop for line in lines
+                    for record in records
+                    always (equal (json-record line) (lisp-record record))))))
+      (skip "no python3")))
+
+(test the-executable-stands-alone
+  (let ((copy (format nil "~a-copy" (program))))
+    (uiop:copy-file (program) copy)
+    (uiop:run-program (list "chmod" "+x" copy))
+    (with-text-file (rules (file-text "rules.lisp"))
+      (multiple-value-bind (status output errors)
+          (run-process (list "env" "-i" "sh" "-c" "cd / && \"$0\" --rules \"$1\" < \"$2\"" copy rules
+                             (format nil "~a.in" (program))))
+        (is (eql 0 status) "~a" errors)
+        (is (search "PINCH-3-PARALLEL" output))))))
+
+(test remove-what-the-tests-have-made
+  (remove-program)
+  (is (null *program*)))

@@ -1,0 +1,87 @@
+;;;; record.lisp -- tests of records: what they say, and that both notations say the same.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defun written (record writer)
+  "Return what WRITER, a function, writes for RECORD."
+  (uiop:with-temporary-file (:pathname file)
+    (with-open-file (out file :direction :output :if-exists :supersede)
+      (let ((output (supergrip::make-output (sb-sys:fd-stream-fd out))))
+        (funcall writer record output)
+        (supergrip::flush-output output)))
+    (uiop:read-file-string file :external-format :utf-8)))
+
+(defun lisp-line (record) (written record #'supergrip::write-lisp-record))
+(defun json-line (record) (written record #'supergrip::write-json-record))
+
+(defun json-record (line)
+  "Return LINE, a record in JSON, as a plist such as PLAN-RECORD makes."
+  (labels ((plist (value)
+             (cond ((supergrip-data:json-object-p value)
+                    (loop for (key . member) in (supergrip-data:json-object-members value)
+                          collect (intern (string-upcase (substitute #\- #\_ key)) :keyword)
+                          collect (plist member)))
+                   ((supergrip-data:json-array-p value)
+                    (mapcar #'plist (supergrip-data:json-array-elements value)))
+                   ((supergrip-data:json-literal-p value) nil)
+                   (t value))))
+    (plist (supergrip-data:read-json (supergrip-data:string-source line)))))
+
+(defun lisp-record (line)
+  (let ((*read-eval* nil)) (read-from-string line)))
+
+(test the-pencil-has-its-record
+  (let ((record (supergrip::plan-record (supergrip:plan (cons '(:name "pencil") *good-box*))
+                                        :line 3)))
+    (loop for (key value) in
+          '((:name "pencil") (:line 3) (:status "grasp") (:grasp "PINCH-3-PARALLEL")
+            (:matching ("Y2" "Y1" "X2" "X1" "Z2" "Z1")) (:u-t 0.625d0)
+            (:limiting (:force "about Y" :velocity "about Y")) (:offset (0d0 0d0 0d0))
+            (:approach (0d0 0d0 -1d0)) (:tried 6) (:possible 6) (:reason nil))
+          do (is (equalp value (getf record key)) "~a" key))
+    (is (close-to 0.86d0 (getf record :quality)))
+    (is (= 3 (length (getf record :contacts))))
+    (is (equal '(:surface "Y2" :position (-0.86875d0 -1d0 0d0) :normal (0d0 1d0 0d0))
+               (first (getf record :contacts))))))
+
+(test both-notations-read-back-as-the-record
+  (for-random-boxes (box 300 41)
+    (let ((record (supergrip::plan-record (supergrip:plan box) :line 1)))
+      (is (equal record (lisp-record (lisp-line record))) "~s" box)
+      (is (equal record (json-record (json-line record))) "~s" box))))
+
+(test numbers-print-shortest-and-read-back
+  (let ((state (sb-ext:seed-random-state 7)))
+    (flet ((digits (number) (json-line (list :x number))))
+      (loop for (number text) in
+            '((0d0 "0.0") (1d0 "1.0") (-12.5d0 "-12.5") (0.1d0 "0.1") (1d22 "1.0e22")
+              (1d21 "1.0e21") (123456789012345680d0 "123456789012345680.0")
+              (1d-5 "0.00001") (1.5d-7 "1.5e-7") (1d-300 "1.0e-300")
+              (1.7976931348623157d308 "1.7976931348623157e308"))
+            do (is (equal (format nil "{\"x\":~a}~%" text) (digits number)) "~a" number))
+      (is (loop repeat 2000
+                always (let ((number (* (if (zerop (random 2 state)) 1 -1)
+                                        (random-between 1d-140 1d140 state))))
+                         (and (eql number (getf (json-record (digits number)) :x))
+                              (eql number (getf (lisp-record (lisp-line (list :x number))) :x)))))))))
+
+(test any-name-is-one-line-in-both-notations
+  (dolist (name (list "" "a\"b\\c" (format nil "a~%b~cc~cd" #\Return (code-char 0)) "café"
+                      (string (code-char #x1f600))))
+    (let ((record (list :name name)))
+      (is (= 1 (count #\Newline (lisp-line record))))
+      (is (= 1 (count #\Newline (json-line record))))
+      (is (equal record (json-record (json-line record))))
+      (unless (find #\Newline name)
+        (is (equal record (lisp-record (lisp-line record))))))))
+
+(test the-records-of-errors-say-where-and-what
+  (let ((record (supergrip::error-record
+                 (list (supergrip-data:make-problem :line 2 :column 7 :text "it is wrong"))
+                 :name "x" :line 1)))
+    (is (equal "error" (getf record :status)))
+    (is (equal "line 2, column 7: it is wrong" (getf record :reason)))
+    (is (equal '((:line 2 :column 7 :text "it is wrong")) (getf record :problems)))
+    (is (equal record (json-record (json-line record))))
+    (is (equal record (lisp-record (lisp-line record))))))
