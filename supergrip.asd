@@ -78,11 +78,10 @@
 (defsystem "supergrip/test"
   :description "All tests."
   :license "MIT"
-  :depends-on ("supergrip" "supergrip/chainer-test")
+  :depends-on ("supergrip" "supergrip/chainer-test" "supergrip/oracle")
   :pathname "t/"
   :serial t
-  :components ((:file "oracle")
-               (:file "random")
+  :components ((:file "random")
                (:file "paper")
                (:file "statics")
                (:file "rules")
@@ -100,14 +99,19 @@
                (:static-file "fuzz.lisp"))
   :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))
 
+(defsystem "supergrip/oracle"
+  :description "The reference engine, which shares nothing with SUPER-GRIP."
+  :license "MIT"
+  :pathname "t/"
+  :components ((:file "oracle")))
+
 (defsystem "supergrip/bench"
   :description "The benchmark: sbcl --script t/bench/run.lisp."
   :license "MIT"
-  :depends-on ("supergrip")
+  :depends-on ("supergrip" "supergrip/oracle")
   :pathname "t/"
   :serial t
-  :components ((:file "oracle")
-               (:module "bench"
+  :components ((:module "bench"
                 :serial t
                 :components ((:file "package")
                              (:file "clock")

@@ -19,7 +19,8 @@
   (handler-bind ((sb-kernel:redefinition-with-defmacro #'muffle-warning)
                  (warning (lambda (warning) (push (princ-to-string warning) *warnings*))))
     (asdf:load-system "supergrip/test" :force '("supergrip" "supergrip/chainer"
-                                                "supergrip/chainer-test" "supergrip/test"))
+                                                "supergrip/chainer-test" "supergrip/oracle"
+                                                "supergrip/test"))
     (asdf:load-system "supergrip/bench" :force '("supergrip/bench"))))
 
 (format t "~{~a~%~}~d warning~:p~%" (reverse *warnings*) (length *warnings*))

@@ -166,6 +166,7 @@ with NEXT.  UNBOUND are the variables of CLAUSE that it binds."
                        (declare (type packed fact))
                        ;; What the fact has of the faces taken is what the clause asks for.
                        (when (= set (logand taken fact))
+                         ;; The face of an only variable is what is left: no places to try.
                          (if only
                              (funcall next memory (pack-with binding only (only-face left)))
                              (funcall places memory binding fact left)))))))))))
