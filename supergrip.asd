@@ -24,6 +24,24 @@
                (:static-file "boot.lisp"))
   :in-order-to ((test-op (test-op "supergrip/test"))))
 
+(defsystem "supergrip/draw"
+  :description "Pictures of boxes, grasps and plans, as SVG, and reports, as HTML."
+  :version "0.1.0"
+  :license "MIT"
+  :depends-on ("supergrip" "cl-who")
+  :pathname "src/draw/"
+  :serial t
+  :components ((:file "package")
+               (:file "geometry")
+               (:file "labels")
+               (:file "svg")
+               (:file "subject")
+               (:file "scene")
+               (:file "pictures")
+               (:file "plan-picture")
+               (:file "grasps-picture"))
+  :in-order-to ((test-op (test-op "supergrip/draw-test"))))
+
 (defsystem "supergrip/chainer"
   :description "The upper level alone: the data reader, and an s-expression forward chainer."
   :version "0.1.0"
