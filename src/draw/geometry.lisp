@@ -48,17 +48,30 @@
 
 (defstruct camera
   "Where a picture is seen from, infinitely far away: three unit vectors to the right, up, and
-TOWARD the viewer.  AZIMUTH, from X to Y, and ELEVATION in degrees."
-  right up toward azimuth elevation)
+TOWARD the viewer.  AZIMUTH and ELEVATION, in degrees, are those of the viewer over the face TOP."
+  right up toward azimuth elevation (top 1))
 
-(defun camera-at (azimuth elevation)
-  "Return the camera that sees from AZIMUTH (from X to Y) and ELEVATION, in degrees."
+(defun frame-over (top)
+  "Return three unit vectors, right-handed, the third of which is the normal of the face TOP: X Y Z
+for Z1."
+  (let* ((axis (surface-axis top))
+         (i (axis-vector (mod (+ axis 1) 3)))
+         (j (axis-vector (mod (+ axis 2) 3))))
+    (if (plusp (surface-sign top))
+        (list i j (face-normal top))
+        (list j i (face-normal top)))))
+
+(defun camera-at (azimuth elevation &optional (top 1))
+  "Return the camera that sees from AZIMUTH and ELEVATION, in degrees, the face TOP being above.
+Over Z1 azimuth runs from X to Y (see FRAME-OVER)."
   (let* ((a (* azimuth (/ pi 180))) (e (* elevation (/ pi 180)))
-         (sin-a (sin a)) (cos-a (cos a)) (sin-e (sin e)) (cos-e (cos e)))
-    (make-camera :azimuth azimuth :elevation elevation
-                 :right (list (- sin-a) cos-a 0d0)
-                 :up (list (- (* sin-e cos-a)) (- (* sin-e sin-a)) cos-e)
-                 :toward (list (* cos-e cos-a) (* cos-e sin-a) sin-e))))
+         (sin-a (sin a)) (cos-a (cos a)) (sin-e (sin e)) (cos-e (cos e))
+         (frame (frame-over top)))
+    (flet ((vector-of (&rest parts) (apply #'v+ (mapcar #'v* parts frame))))
+      (make-camera :azimuth azimuth :elevation elevation :top top
+                   :right (vector-of (- sin-a) cos-a 0)
+                   :up (vector-of (- (* sin-e cos-a)) (- (* sin-e sin-a)) cos-e)
+                   :toward (vector-of (* cos-e cos-a) (* cos-e sin-a) sin-e)))))
 
 (defun facing (normal camera)
   "Return 1 if a face of NORMAL is turned to CAMERA, -1 if away, 0 if it is seen edge-on."

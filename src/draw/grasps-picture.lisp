@@ -15,28 +15,24 @@
     (force-needed (0.1 0.1 0.1 0.1 0.1 0.1)) (velocity-needed (0 0 0 0 0 0))))
 
 (defun reference-plans (name knowledge)
-  "Return a function that gives plans in which the grasp NAME was tried, each on another box."
+  "Return the arguments of the plans in which the grasp NAME is to be tried, each on another box."
   (loop for u in '(1.5d0 0.8d0 3d0)
         append (loop for size in +reference-sizes+
                      collect (list name (reference-box size u) knowledge))))
 
 (defun reference-candidate (name knowledge)
-  "Return a possible candidate of the grasp NAME with the palm above, and its plan; or NIL."
+  "Return a possible candidate of the grasp NAME, and its plan; or NIL."
   (loop for (name box knowledge) in (reference-plans name knowledge)
         for plan = (try-grasp name box :knowledge knowledge)
-        for candidates = (plan-possible plan)
-        for above = (remove 1 candidates :key #'palm-face :test-not #'=)
-        do (when candidates
-             (return (values (best-seen (or above candidates) plan) plan)))))
+        do (when (plan-possible plan)
+             (return (values (best-seen (plan-possible plan) plan) plan)))))
 
 (defun best-seen (candidates plan)
-  "Return the one of CANDIDATES whose contacts are seen best from the usual place."
-  (let ((camera (camera-at -58 28)) (best nil) (most nil))
+  "Return the one of CANDIDATES of PLAN whose contacts are seen best with the palm above."
+  (let ((best nil) (most nil))
     (dolist (candidate candidates best)
-      (let* ((subject (grasp-subject candidate plan))
-             (score (+ (reduce #'+ (mapcar (lambda (contact) (contact-score contact camera))
-                                           (subject-contacts subject)))
-                       (spread-score subject camera))))
+      (let ((score (nth-value 1 (best-camera (list (grasp-subject candidate plan)) 26
+                                             (palm-face candidate)))))
         (when (or (null most) (> score (+ most 1d-6)))
           (setf best candidate most score))))))
 
@@ -70,12 +66,12 @@
                         for numbers = (loop for contact in (subject-contacts subject)
                                             when (= face (contact-face contact))
                                               collect (contact-number contact))
-                        when numbers
-                          collect (cons face (format nil "~{~d~^ and ~}" numbers))))
+                        when numbers collect (cons face numbers)))
          (pairs (loop for (face . numbers) in by-face
                       for other = (cdr (assoc (opposite face) by-face))
                       when (and other (oddp face))
-                        collect (format nil "~a against ~a" numbers other))))
+                        collect (format nil "~{~d~^ and ~} ~:[oppose~;opposes~] ~{~d~^ and ~}"
+                                        numbers (null (rest numbers)) other))))
     (format nil "~:[no two fingers oppose~;~:*~{~a~^, ~}~]; palm over ~a" pairs
             (funcall name (subject-palm subject)))))
 
@@ -92,8 +88,8 @@
         (draw-reference candidate plan x y width height))))
 
 (defun draw-reference (candidate plan x y width height)
-  (let* ((subject (grasp-subject candidate plan :namer (slot-namer candidate)))
-         (camera (best-camera (list subject) 26))
+  (let* ((subject (grasp-subject candidate plan :namer (slot-namer candidate) :labelled nil))
+         (camera (best-camera (list subject) 26 (palm-face candidate)))
          (view (fit-view camera (subject-vectors subject)
                          (list (+ x 34) (+ y 60) (- width 76) (- height 108))))
          (summary (grasp-summary subject)))
@@ -111,30 +107,45 @@
 (defun grasp-names (knowledge)
   (mapcar #'supergrip::grasp-name (knowledge-grasps knowledge)))
 
+(defparameter +grasp-key+
+  '((key-contact 20 "contact of a finger") (key-hidden 20 "contact behind the box")
+    (key-closing 30 "these fingers oppose each other")
+    (key-centre 20 "grasp centre"))
+  "The signs of the key to the grasps.")
+
+(defun draw-grasps-key (x y)
+  "Draw the key to the grasps in the table's last, free cell."
+  (loop for sign in +grasp-key+
+        for line from (+ y 60) by 26
+        do (draw-key x line 400 :signs (list sign)))
+  (loop for text in '("1, 2, 3 are the fingers." "N O A are the axes of the grasp:"
+                      "N1 is the face on the + side of N,"
+                      "N2 the one opposed to it, and so on." "The palm is above.")
+        for line from (+ y 172) by 21
+        do (draw-text text (list x line) :class "soft")))
+
 (defun grasps-picture (knowledge)
   "Return the picture of all grasps of KNOWLEDGE."
   (let* ((names (grasp-names knowledge))
-         (columns (min 3 (max 1 (length names))))
-         (rows (ceiling (length names) columns))
+         (columns 3)
+         (rows (ceiling (1+ (length names)) columns))
          (wide 330) (high 320)
          (width (+ 24 (* columns wide)))
-         (height (+ 78 (* rows high) 36))
          (words '()))
-    (let ((picture
-            (with-picture (width height "Grasp modes" "")
-              (draw-heading "Grasp modes"
-                            '("Each on a reference box, the palm above. Box and contacts to scale; ~
-                               fingers and palm are a diagram.")
-                            width)
-              (loop for name in names
-                    for i from 0
-                    do (multiple-value-bind (row column) (floor i columns)
-                         (let ((x (+ 12 (* column wide))) (y (+ 72 (* row high))))
+    (flet ((cell (i) (multiple-value-bind (row column) (floor i columns)
+                       (values (+ 12 (* column wide)) (+ 72 (* row high))))))
+      (let ((picture
+              (with-picture (width (+ 78 (* rows high)) "Grasp modes" "")
+                (draw-heading "Grasp modes" (list +scale-words+) width)
+                (loop for name in names
+                      for i from 0
+                      do (multiple-value-bind (x y) (cell i)
                            (draw-rectangle (+ x 3) y (- wide 6) (- high 8) "frame")
-                           (push (draw-grasp-cell name knowledge x y wide (- high 8)) words))))
-              (draw-key 24 (+ 72 (* rows high) 20) (- width 48)))))
-      (setf (picture-description picture) (format nil "~{~a~^ ~}" (reverse words)))
-      picture)))
+                           (push (draw-grasp-cell name knowledge x y wide (- high 8)) words)))
+                (multiple-value-bind (x y) (cell (length names))
+                  (draw-grasps-key (+ x 16) y)))))
+        (setf (picture-description picture) (format nil "~{~a~^ ~}" (reverse words)))
+        picture))))
 
 (defun draw-grasps (file &key (knowledge *knowledge*))
   "Draw all grasps of KNOWLEDGE, each on a reference box, into FILE, an SVG picture: the paper's

@@ -21,21 +21,25 @@ seen, in gaps, 1 at most."
           do (dolist (q rest) (setf least (min least (/ (distance p q) (subject-gap subject)))))
           finally (return least))))
 
-(defun best-camera (subjects &optional (elevation 28))
-  "Return the camera that sees the contacts of SUBJECTS best."
+(defun view-score (subject camera)
+  "Return how well the contacts of SUBJECT are seen by CAMERA."
+  (+ (reduce #'+ (mapcar (lambda (contact) (contact-score contact camera))
+                         (subject-contacts subject)))
+     (spread-score subject camera)))
+
+(defun best-camera (subjects &optional (elevation 28) (top 1))
+  "Return the camera that sees the contacts of SUBJECTS best, the face TOP being above, and how
+well it does."
   (let ((best nil) (most nil))
     (loop for azimuth in +azimuths+
           for place from 0
-          for camera = (camera-at azimuth elevation)
-          for score = (- (loop for subject in subjects
-                               sum (reduce #'+ (mapcar (lambda (contact)
-                                                         (contact-score contact camera))
-                                                       (subject-contacts subject)))
-                               sum (spread-score subject camera))
+          for camera = (camera-at azimuth elevation top)
+          for score = (- (reduce #'+ (mapcar (lambda (subject) (view-score subject camera))
+                                             subjects))
                          (* 0.02 place))
           do (when (or (null most) (> score most))
                (setf best camera most score)))
-    best))
+    (values best most)))
 
 (defun box-text (box)
   "Return name and sizes of BOX for a heading."
@@ -61,6 +65,10 @@ seen, in gaps, 1 at most."
 
 ;;; The key
 
+(defparameter +scale-words+
+  "Box and contacts are to scale; fingers and palm are a diagram of where they come from."
+  "What is to scale.")
+
 (defun key-contact (x y) (draw-circle (list x y) 3 "contact"))
 (defun key-hidden (x y) (draw-circle (list x y) 3 "contact-hidden"))
 (defun key-blocked (x y)
@@ -68,19 +76,20 @@ seen, in gaps, 1 at most."
     (draw-polygon outline "blocked")
     (draw-hatching outline)))
 (defun key-closing (x y) (draw-line (list (- x 14) y) (list (+ x 14) y) "centre"))
+(defun key-centre (x y) (draw-cross (list x y)))
 (defun key-away (x y) (draw-end-on (list x y) nil nil))
 (defun key-toward (x y) (draw-end-on (list x y) t nil))
 
 (defparameter +key+
-  '((key-contact 8 "contact") (key-hidden 8 "contact behind the box")
-    (key-away 12 "finger points away") (key-toward 12 "finger points to you")
-    (key-closing 30 "these oppose") (key-blocked 20 "constrained face"))
+  '((key-contact 8 "contact") (key-hidden 8 "contact behind")
+    (key-away 12 "points away") (key-toward 12 "points to you")
+    (key-closing 30 "opposed fingers") (key-blocked 20 "constrained"))
   "The signs of the key: how each is drawn, how wide it is, what it means.")
 
-(defun draw-key (x y width)
-  "Draw the key from X Y in lines no wider than WIDTH.  Returns the y of its last line."
+(defun draw-key (x y width &key (signs +key+))
+  "Draw the key of SIGNS from X Y in lines no wider than WIDTH.  Returns the y of its last line."
   (let ((left x))
-    (loop for (sign wide text) in +key+
+    (loop for (sign wide text) in signs
           for more = (+ wide 8 (text-width text "soft") 18)
           do (when (> (+ left more) (+ x width))
                (setf left x)

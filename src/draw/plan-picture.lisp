@@ -19,7 +19,7 @@
   (let* ((cell (/ height 3))
          (vectors (subject-vectors subject))
          (areas (loop for i below 3
-                      collect (list (+ x 46) (+ y (* i cell) 26) (- width 60) (- cell 44))))
+                      collect (list (+ x 66) (+ y (* i cell) 26) (- width 82) (- cell 44))))
          (cameras (loop for (azimuth elevation) in +flat-views+
                         collect (flat-camera azimuth elevation)))
          (scale (loop for camera in cameras
@@ -60,6 +60,8 @@
       (let ((view (fit-view (best-camera (list subject)) vectors
                             (list (+ x 14) (+ y 28) (- width 28) (- height 54)))))
         (draw-whole subject view)
+        (occupy (list x (+ y height -34) 170 34))
+        (place-labels area)
         (draw-scale-bar (view-scale view) (list (+ x 12) (+ y height -24)))))))
 
 (defun draw-whole (subject view)
@@ -69,21 +71,22 @@
       (draw-environment subject)
       (draw-edges subject :hidden)
       (draw-faces subject)
-      (draw-edges subject :edge)
-      (draw-weight subject)
-      (draw-centre subject)
-      (draw-approach subject))))
+      (draw-outline subject)
+      (draw-approach subject)
+      (let ((*small* nil))
+        (draw-weight subject)
+        (draw-centre subject)))))
 
 (defun fingers-text (subject)
   "Return where the fingers are, for a reader."
-  (format nil "Fingers at ~{~a~^, ~} cm from the box centre, along X Y Z."
+  (format nil "Fingers: ~{~a~^, ~} cm from the box centre, along X Y Z."
           (loop for contact in (subject-contacts subject)
-                collect (format nil "~d on ~a ~a" (contact-number contact)
+                collect (format nil "~d on ~a at ~a" (contact-number contact)
                                 (surface-name (contact-face contact))
                                 (place-text (contact-position contact))))))
 
 (defun candidate-title (candidate)
-  (format nil "~a   ~a" (candidate-grasp candidate) (quality-text (candidate-quality candidate))))
+  (format nil "~a, ~a" (candidate-grasp candidate) (quality-text (candidate-quality candidate))))
 
 (defun candidate-description (candidate plan subject)
   "Return what a picture of CANDIDATE shows, for those who can't see it."
@@ -106,8 +109,8 @@
                                     (box-text (plan-box plan)))
                         (candidate-description candidate plan subject))
       (draw-heading (candidate-title candidate)
-                    (list (format nil "~a   ~a" (matching-text (candidate-matching candidate))
-                                  (box-text (plan-box plan))))
+                    (list (format nil "~a; ~a" (box-text (plan-box plan))
+                                  (matching-text (candidate-matching candidate))))
                     1000)
       (draw-main-view subject (list 24 72 630 (if cut 372 520)))
       (when cut

@@ -69,53 +69,51 @@
                           (push (list (first ends) (second ends) f g) edges))))
     edges))
 
-(defun draw-edge (subject a b f g)
-  "Draw the edge from A to B between the faces F and G, as it is seen."
-  (cond ((not (and (shown-face-p f subject) (shown-face-p g subject)))
-         nil)
-        ((and (<= (face-turned f) 0) (<= (face-turned g) 0)
-              (or (minusp (face-turned f)) (minusp (face-turned g)))
-              (not (and (zerop (face-turned f)) (zerop (face-turned g)))))
-         (list :hidden (at a) (at b)))
-        (t (list :edge (at a) (at b)))))
+(defun edge-kind (subject f g)
+  "Return how the edge between the faces F and G is drawn: as an :EDGE, :BROKEN off, :HIDDEN, or not
+at all."
+  (cond ((and (< (face-turned f) 1) (< (face-turned g) 1))
+         (and (minusp (face-turned f)) (minusp (face-turned g))
+              (shown-face-p f subject) (shown-face-p g subject)
+              :hidden))
+        ((and (shown-face-p f subject) (shown-face-p g subject)) :edge)
+        (t :broken)))
 
 (defun draw-edges (subject kind)
+  "Draw the edges of KIND of what is shown of the box."
   (loop for (a b f g) in (edges subject)
-        for edge = (draw-edge subject a b f g)
-        do (when (eq kind (first edge))
-             (note-strokes (rest edge))
-             (draw-line (second edge) (third edge) (string-downcase kind)))))
+        when (eq kind (edge-kind subject f g))
+          do (note-strokes (list (at a) (at b)))
+             (if (eq kind :broken)
+                 (draw-path (broken-line (at a) (at b)) "thin")
+                 (draw-line (at a) (at b) (string-downcase kind)))))
+
+(defun draw-outline (subject)
+  "Draw the edges of the box that can be seen, and where the drawing is broken off."
+  (draw-edges subject :broken)
+  (draw-edges subject :edge))
 
 (defun broken-line (a b)
   "Return the points of the line along which a drawing is broken off, from A to B."
   (let* ((length (distance a b))
-         (count (* 2 (max 1 (round length 18))))
-         (across (if (zerop length) '(0 0)
-                     (list (/ (- (second a) (second b)) length)
-                           (/ (- (first b) (first a)) length)))))
+         (count (if (< length 24) 1 (* 2 (round length 18)))))
     (append (list a)
             (loop for i from 1 below count
-                  for point = (along a b (/ i count))
-                  collect (mapcar (lambda (p d) (+ p (* (if (evenp i) -3 3) d))) point across))
+                  for (x y) = (along a b (/ i count))
+                  for side = (/ (if (evenp i) -3 3) length)
+                  collect (list (+ x (* side (- (second a) (second b))))
+                                (+ y (* side (- (first b) (first a))))))
             (list b))))
 
 (defun draw-faces (subject)
-  "Draw the faces of the box that are turned to the viewer, constrained ones hatched, and where the
-drawing is broken off."
+  "Draw the faces of the box that are turned to the viewer, constrained ones hatched."
   (dolist (face '(0 1 2 3 4 5))
     (when (= 1 (face-turned face))
       (let ((outline (mapcar #'at (face-corners face (subject-low subject) (subject-high subject)))))
         (draw-polygon outline "face")
         (when (and (shown-face-p face subject) (member face (subject-blocked subject)))
           (draw-polygon outline "blocked")
-          (draw-hatching outline)))))
-  (dolist (face '(0 1 2 3 4 5))
-    (unless (or (shown-face-p face subject) (minusp (face-turned face)))
-      (let ((corners (mapcar #'at (face-corners face (subject-low subject) (subject-high subject)))))
-        (loop for (a b) on (append corners (list (first corners)))
-              while b
-              do (when (> (distance a b) 1)
-                   (draw-path (broken-line a b) "thin")))))))
+          (draw-hatching outline))))))
 
 (defun name-faces (subject)
   "Write its name on each face that is turned to the viewer, if there is room."
@@ -245,25 +243,47 @@ box as seen edge-on, so that the box can't hide it."
   (format nil "(~{~a~^, ~})" (mapcar #'decimal vector)))
 
 (defun contact-title (contact)
-  (format nil "finger ~d on ~a at ~a cm" (contact-number contact)
+  (format nil "Finger ~d on ~a at ~a cm" (contact-number contact)
           (surface-name (contact-face contact)) (place-text (contact-position contact))))
 
+(defun label-anchor (contact)
+  "Return the point of the label of CONTACT: the knee of its finger, or a place on a straight one."
+  (let* ((path (contact-path contact))
+         (apex (at (contact-position contact)))
+         (knee (at (first (last path 2)))))
+    (if (= 2 (length path)) (along apex knee 0.35) knee)))
+
+(defun direction (from to)
+  "Return the direction FROM one point TO another, or NIL if they are too near."
+  (let ((length (distance from to)))
+    (and (> length 4) (mapcar (lambda (a b) (/ (- b a) length)) from to))))
+
+(defun contact-label (contacts subject)
+  (if *small*
+      (format nil "~{~d~^, ~}" (mapcar #'contact-number contacts))
+      (format nil "~{~d~^, ~} on ~a" (mapcar #'contact-number contacts)
+              (funcall (subject-namer subject) (contact-face (first contacts))))))
+
 (defun label-contacts (subject)
-  "Ask for the labels of the fingers, at their knees."
-  (dolist (contact (subject-contacts subject))
-    (let* ((apex (at (contact-position contact)))
-           (knee (at (first (last (contact-path contact) 2))))
-           (anchor (if (= 2 (length (contact-path contact))) (along apex knee 0.35) knee))
-           (away (distance anchor apex)))
-      (occupy-around apex 7)
-      (ask-for-label (if *small*
-                         (format nil "~d" (contact-number contact))
-                         (format nil "~d on ~a" (contact-number contact)
-                                 (funcall (subject-namer subject) (contact-face contact))))
-                     (if (< away 1) apex anchor)
-                     :class "bold" :away 7 :leader t
-                     :toward (and (> away 4)
-                                  (mapcar (lambda (a b) (/ (- a b) away)) anchor apex))))))
+  "Ask for the labels of the fingers; those that are seen in one place have one label."
+  (let ((left (subject-contacts subject))
+        (middle (and (subject-contacts subject)
+                     (middle (mapcar #'label-anchor (subject-contacts subject))))))
+    (loop while left
+          do (let* ((first (first left))
+                    (anchor (label-anchor first))
+                    (apex (at (contact-position first)))
+                    (same (remove-if-not
+                           (lambda (other)
+                             (and (= (contact-face other) (contact-face first))
+                                  (< (distance anchor (label-anchor other)) 9)))
+                           left)))
+               (ask-for-label (contact-label same subject)
+                              (if (< (distance anchor apex) 1) apex anchor)
+                              :class "bold" :away 7 :leader t
+                              :toward (or (direction apex anchor) (direction middle anchor)))
+               (setf left (set-difference left same))
+               (setf left (sort left #'< :key #'contact-number))))))
 
 (defun draw-approach (subject)
   "Draw the hollow arrow along which the hand comes."
@@ -284,14 +304,19 @@ box as seen edge-on, so that the box can't hide it."
                 (ask-for-label "approach" (along tail tip 0.2) :class "soft" :away 9)))))))))
 
 (defun draw-palm (subject)
+  "Draw the palm's plate, and ask for its label on the far side from the box."
   (draw-plate (subject-palm-low subject) (subject-palm-high subject) "palm")
   (unless *small*
-    (let ((corners (mapcar #'at (box-corners (subject-palm-low subject)
-                                             (subject-palm-high subject)))))
-      (ask-for-label (format nil "palm, over ~a" (funcall (subject-namer subject)
-                                                          (subject-palm subject)))
-                     (first (sort (hull corners) #'> :key #'first)) :away 6 :toward '(1 0)
-                     :leader t))))
+    (let* ((corners (hull (mapcar #'at (box-corners (subject-palm-low subject)
+                                                    (subject-palm-high subject)))))
+           (away (mapcar #'- (middle corners) (middle (silhouette subject))))
+           (way (max 1d0 (distance away '(0 0))))
+           (side (list (+ 0.6d0 (/ (first away) way)) (/ (second away) way))))
+      (flet ((far (corner) (reduce #'+ (mapcar #'* side corner))))
+        (ask-for-label (format nil "palm, over ~a" (funcall (subject-namer subject)
+                                                            (subject-palm subject)))
+                       (first (sort corners #'> :key #'far)) :away 6 :toward side
+                       :leader t)))))
 
 ;;; Centres and weight
 
@@ -314,8 +339,9 @@ box as seen edge-on, so that the box can't hide it."
     (destructuring-bind (from to) (mapcar #'at (weight-ends subject))
       (draw-arrow from to)
       (draw-circle from 2.6 "force-tip")
+      (occupy-around to 7)
       (unless *small*
-        (ask-for-label (subject-load subject) to :away 5 :class "plain")))))
+        (ask-for-label (subject-load subject) to :away 9 :toward '(0.9 0.4))))))
 
 (defun draw-closing (subject)
   "Draw a chain line between fingers that oppose each other."
@@ -324,20 +350,23 @@ box as seen edge-on, so that the box can't hide it."
              (draw-line (at a) (at b) "centre")
              (note-strokes (list (at a) (at b))))))
 
+(defun draw-cross (point)
+  (destructuring-bind (x y) point
+    (draw-line (list (- x 5) y) (list (+ x 5) y) "edge")
+    (draw-line (list x (- y 5)) (list x (+ y 5)) "edge")))
+
 (defun draw-centre (subject)
   "Draw the grasp centre, a cross, and its offset from the box centre."
   (let* ((centre (at (subject-centre subject)))
          (origin (at '(0d0 0d0 0d0)))
          (offset (distance (subject-centre subject) '(0d0 0d0 0d0))))
-    (loop for (x y) in '((5 0) (0 5))
-          do (draw-line (list (- (first centre) x) (- (second centre) y))
-                        (list (+ (first centre) x) (+ (second centre) y)) "edge"))
+    (draw-cross centre)
     (occupy-around centre 6)
     (when (and (> offset 1d-9) (centre-shown-p subject))
       (draw-line origin centre "thin")
       (draw-circle origin 2.6 "force-tip")
       (note-strokes (list origin centre)))
-    (unless *small*
+    (unless (or *small* (not (subject-labelled subject)))
       (ask-for-label (if (> offset 1d-9)
                          (format nil "grasp centre, offset ~a cm" (length-text offset))
                          "grasp centre")
@@ -358,9 +387,9 @@ box as seen edge-on, so that the box can't hide it."
                                                  (subject-palm-high subject) subject)))
           (unless palm-front (draw-palm subject) (draw-approach subject))
           (draw-fingers subject :behind)
-          (draw-tips subject -1)
           (draw-faces subject)
-          (draw-edges subject :edge)
+          (draw-tips subject -1)
+          (draw-outline subject)
           (draw-closing subject)
           (draw-centre subject)
           (draw-weight subject)
@@ -369,7 +398,7 @@ box as seen edge-on, so that the box can't hide it."
           (when palm-front (draw-palm subject) (draw-approach subject))))
       (unless (subject-palm subject)
         (draw-faces subject)
-        (draw-edges subject :edge)
+        (draw-outline subject)
         (draw-weight subject))
       (label-contacts subject)
       (unless small
@@ -388,9 +417,10 @@ box as seen edge-on, so that the box can't hide it."
 (defun view-description (view)
   "Return what VIEW is, in words: enough to find where any place of the box frame is seen."
   (let ((camera (view-camera view)))
-    (format nil "Seen from azimuth ~d°, elevation ~d°; ~,4f units a cm; box centre at (~,3f, ~,3f)."
-            (camera-azimuth camera) (camera-elevation camera) (view-scale view)
-            (first (view-origin view)) (second (view-origin view)))))
+    (format nil "Seen from azimuth ~d°, elevation ~d°, ~a above; ~,5f units a cm; box centre at ~
+                 (~,3f, ~,3f)."
+            (camera-azimuth camera) (camera-elevation camera) (surface-name (camera-top camera))
+            (view-scale view) (first (view-origin view)) (second (view-origin view)))))
 
 ;;; Furniture
 

@@ -12,9 +12,10 @@ diagram of the finger from the palm to the position."
   "A box to be drawn, and a grasp of it if PALM, the face that the palm is over, is not NIL.
 LOW and HIGH are the corners of what is shown of it; GAP the length, in cm, from which all that is
 not to scale is made.  PALM-LOW and PALM-HIGH are the corners of the palm's plate.  NAMER returns
-the name of a face.  LOAD is the weight as text, or NIL for no weight to be drawn."
+the name of a face.  LOAD is the weight as text, or NIL for no weight to be drawn; LABELLED is NIL if
+the grasp centre is to be drawn without words."
   size low high (gap 0) (blocked '()) (contacts '()) (centre '(0d0 0d0 0d0)) (palm nil)
-  palm-low palm-high (namer #'surface-name) (load nil))
+  palm-low palm-high (namer #'surface-name) (load nil) (labelled t))
 
 (defun subject-cut-p (subject)
   "True if only part of the box is shown."
@@ -28,7 +29,7 @@ the name of a face.  LOAD is the weight as text, or NIL for no weight to be draw
 All of it is shown if that is not much more."
   (let ((from (- (/ (+ low high) 2) (/ length 2)))
         (to (+ (/ (+ low high) 2) (/ length 2))))
-    (if (<= (* 2 half) (* 1.5 length))
+    (if (<= (* 2 half) (* 1.6 length))
         (values (- half) half)
         (values (if (< from (* -0.9 half)) (- half) from)
                 (if (> to (* 0.9 half)) half to)))))
@@ -39,7 +40,7 @@ All of it is shown if that is not much more."
          (highs (apply #'mapcar #'max places))
          (extent (reduce #'max (mapcar #'- highs lows)))
          (others (sort (copy-list size) #'<))
-         (length (* 5 (max extent (* 0.7 (first others)) (* 0.04 (third others)))))
+         (length (* 3.5 (max extent (first others) (* 0.04 (third others)))))
          (low '()) (high '()))
     (loop for axis below 3
           do (multiple-value-bind (from to)
@@ -85,7 +86,7 @@ All of it is shown if that is not much more."
   "Return where the palm's plane is along the normal of the face PALM."
   (let ((axis (surface-axis palm)))
     (* (surface-sign palm)
-       (+ (* 1.5 gap)
+       (+ (* 1.9 gap)
           (reduce #'max (mapcar (lambda (vector) (* (surface-sign palm) (nth axis vector)))
                                 (list* low high contacts)))))))
 
@@ -112,7 +113,8 @@ All of it is shown if that is not much more."
 
 (defun gap-of (low high)
   "Return the length from which the diagram of the hand is made, for what is shown of a box."
-  (* 0.15 (max (reduce #'max (mapcar #'- high low)) 1d-6)))
+  (let ((sizes (sort (mapcar #'- high low) #'>)))
+    (+ (* 0.08 (first sizes)) (* 0.13 (second sizes)))))
 
 (defun grasp-subject (candidate plan &rest options &key whole &allow-other-keys)
   "Return the subject of CANDIDATE, which is possible in PLAN.  If WHOLE, the whole box is shown.

@@ -21,7 +21,7 @@ the mark-up of what it shows."
 .sg .soft { fill: #565656 }
 .sg .paper { fill: #ffffff }
 .sg .pad { fill: #ffffff; fill-opacity: 0.85 }
-.sg .face { fill: #f3f3f1; fill-opacity: 0.72; stroke: none }
+.sg .face { fill: #f3f3f1; fill-opacity: 0.5; stroke: none }
 .sg .blocked { fill: #cfcfcb; fill-opacity: 0.8; stroke: none }
 .sg .plate { fill: #dededa; stroke: #6a6a6a; stroke-width: 0.7 }
 .sg .hatch { stroke: #6a6a6a; stroke-width: 1 }
@@ -33,7 +33,7 @@ the mark-up of what it shows."
 .sg .finger { fill: none; stroke: #0b4f8a; stroke-width: 7; stroke-linecap: round; stroke-linejoin: round }
 .sg .core { fill: none; stroke: #d9e8f6; stroke-width: 3.6; stroke-linecap: round; stroke-linejoin: round }
 .sg .behind { fill: none; stroke: #0b4f8a; stroke-width: 2; stroke-dasharray: 6 4 }
-.sg .palm { fill: #d9e8f6; stroke: #0b4f8a; stroke-width: 1.6; stroke-linejoin: round }
+.sg .palm { fill: #d9e8f6; fill-opacity: 0.72; stroke: #0b4f8a; stroke-width: 1.6; stroke-linejoin: round }
 .sg .approach { fill: #ffffff; stroke: #0b4f8a; stroke-width: 1.6; stroke-linejoin: round }
 .sg .tip { fill: #0b4f8a; stroke: #ffffff; stroke-width: 1 }
 .sg .tip-hidden { fill: #ffffff; stroke: #0b4f8a; stroke-width: 1.6 }
