@@ -39,7 +39,11 @@
                (:file "scene")
                (:file "pictures")
                (:file "plan-picture")
-               (:file "grasps-picture"))
+               (:file "grasps-picture")
+               (:file "offset-picture")
+               (:file "session-picture")
+               (:file "quality-picture")
+               (:file "system-picture"))
   :in-order-to ((test-op (test-op "supergrip/draw-test"))))
 
 (defsystem "supergrip/chainer"

@@ -35,20 +35,22 @@ All of it is shown if that is not much more."
                 (if (> to (* 0.9 half)) half to)))))
 
 (defun find-window (size places palm)
-  "Return the corners of what is shown of a box of SIZE around PLACES, up to the face PALM."
+  "Return the corners of what is shown of a box of SIZE around PLACES, up to the face PALM: all of a
+box that is not much larger than the hand's hold of it."
   (let* ((lows (apply #'mapcar #'min places))
          (highs (apply #'mapcar #'max places))
-         (extent (reduce #'max (mapcar #'- highs lows)))
-         (others (sort (copy-list size) #'<))
-         (length (* 3.5 (max extent (first others) (* 0.04 (third others)))))
+         (sizes (sort (copy-list size) #'<))
+         (hold (max (reduce #'max (mapcar #'- highs lows)) (first sizes)
+                    (* 0.04 (third sizes))))
          (low '()) (high '()))
     (loop for axis below 3
+          for half = (/ (nth axis size) 2)
           do (multiple-value-bind (from to)
-                 (window-along (nth axis lows) (nth axis highs) (/ (nth axis size) 2) length)
+                 (if (<= (third sizes) (* 7 hold))
+                     (values (- half) half)
+                     (window-along (nth axis lows) (nth axis highs) half (* 3.5 hold)))
                (when (= axis (surface-axis palm))
-                 (if (plusp (surface-sign palm))
-                     (setf to (/ (nth axis size) 2))
-                     (setf from (/ (nth axis size) -2))))
+                 (if (plusp (surface-sign palm)) (setf to half) (setf from (- half))))
                (push from low)
                (push to high)))
     (values (reverse low) (reverse high))))
