@@ -43,7 +43,8 @@
                (:file "offset-picture")
                (:file "session-picture")
                (:file "quality-picture")
-               (:file "system-picture"))
+               (:file "system-picture")
+               (:file "report"))
   :in-order-to ((test-op (test-op "supergrip/draw-test"))))
 
 (defsystem "supergrip/chainer"

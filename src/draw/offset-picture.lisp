@@ -7,7 +7,7 @@
 
 (in-package :supergrip-draw)
 
-(defparameter +offset-boxes+ '((4 14) (9 12))
+(defparameter +offset-boxes+ '((4 14) (8 12))
   "The two boxes: their sizes along N and A, in cm.")
 
 (defun offset-plan (across along knowledge)
@@ -82,20 +82,20 @@ whose top is at TOP."
                         (format nil "FINGER-DIST ~a"
                                 (length-text (gripper-size "FINGER-DIST" knowledge)))
                         :side '(0 -1))
-        (draw-dimension (at half (second right-knuckle) 26) (at half reach 26)
+        (draw-dimension (at half (second right-knuckle) 18) (at half reach 18)
                         (format nil "FINGER-LENGTH ~a"
                                 (length-text (gripper-size "FINGER-LENGTH" knowledge)))
                         :side '(1 0))
         (when (< (second right-knuckle) (- top 1d-6))
-          (draw-dimension (at half top 26) (at half (second right-knuckle) 26)
+          (draw-dimension (at half top 18) (at half (second right-knuckle) 18)
                           (format nil "depth ~a" (length-text (- top (second right-knuckle))))
                           :side '(1 0)))
         (draw-dimension (at (- half) (- top) 0 20) (at half (- top) 0 20)
                         (format nil "DIST (N1 N2) ~a" (length-text across)) :side '(0 1))
         (draw-dimension (at 0 0) (at 0 offset) (format nil "offset ~a" (length-text offset))
                         :side '(1 0))
-        (draw-dimension (at (- half) top -26) (at (- half) 0 -26)
-                        (format nil "DIST (A1 A2) / 2 = ~a" (length-text top))
+        (draw-dimension (at (- half) top -18) (at (- half) 0 -18)
+                        (format nil "half of DIST ~a" (length-text top))
                         :side '(-1 0))))))
 
 (defun draw-offset-case (across along caption x y width height scale knowledge)
@@ -139,7 +139,7 @@ is narrower than the distance of the fingers' bases, the inner links reach down 
                            "Wider than FINGER-DIST: only the outer links do")
           for x in '(12 506)
           do (draw-rectangle x 72 482 516 "frame")
-             (draw-offset-case across along caption x 72 482 516 20 knowledge))))
+             (draw-offset-case across along caption x 72 482 516 19 knowledge))))
 
 (defun draw-offset (file &key (knowledge *knowledge*))
   "Draw what the offset of a grasp is, on two boxes too tall for the gripper of KNOWLEDGE, into

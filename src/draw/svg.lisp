@@ -164,7 +164,7 @@ the mark-up of what it shows."
   (cond ((find char "ijl.,:;'|!()[] ") 0.40)
         ((find char "frtI-/") 0.45)
         ((find char "mwMW%@") 0.98)
-        ((upper-case-p char) 0.76)
+        ((upper-case-p char) 0.72)
         ((< (char-code char) 127) 0.65)
         ((< (char-code char) #x2000) 0.75)
         (t 1.05)))
