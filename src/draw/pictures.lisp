@@ -86,6 +86,15 @@ well it does."
     (key-closing 30 "opposed fingers") (key-blocked 20 "constrained"))
   "The signs of the key: how each is drawn, how wide it is, what it means.")
 
+(defun key-have (x y) (draw-rectangle (- x 12) (- y 6) 24 12 "have"))
+(defun key-need (x y) (draw-line (list x (- y 8)) (list x (+ y 8)) "need"))
+
+(defparameter +quality-key+
+  '((key-have 26 "what the grasp has, gravity’s load taken off")
+    (key-need 6 "what the task needs at the grasp centre")
+    (list 0 "◀ the axis that limits"))
+  "The key to the bars.")
+
 (defun draw-key (x y width &key (signs +key+))
   "Draw the key of SIGNS from X Y in lines no wider than WIDTH.  Returns the y of its last line."
   (let ((left x))

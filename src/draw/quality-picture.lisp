@@ -80,13 +80,6 @@ ratio; LIMIT is the name of the limiting axis.  Returns the y below."
           (radius-text "velocities, u_t" (candidate-velocity-radius candidate)
                        (candidate-velocity-axis candidate))))
 
-(defun draw-quality-key (x y)
-  (draw-rectangle x (- y 10) 26 12 "have")
-  (draw-text "what the grasp has, gravity’s load taken off" (list (+ x 34) y) :class "soft")
-  (draw-line (list (+ x 352) (- y 14)) (list (+ x 352) (+ y 4)) "need")
-  (draw-text "what the task needs at the grasp centre" (list (+ x 362) y) :class "soft")
-  (draw-text "◀ the axis that limits" (list (+ x 660) y) :class "soft"))
-
 (defun quality-picture (plan count)
   "Return the picture of what the COUNT best candidates of PLAN have against what is needed."
   (let* ((candidates (best-candidates plan count))
@@ -106,7 +99,7 @@ ratio; LIMIT is the name of the limiting axis.  Returns the y below."
             for place from 1
             for x from 24 by wide
             do (draw-candidate-quality candidate plan place x 76 (- wide 30)))
-      (draw-quality-key 24 508))))
+      (draw-key 24 508 (- width 48) :signs +quality-key+))))
 
 (defun draw-quality (plan file &key (count 3))
   "Draw, for the COUNT best candidates of PLAN, what they have against what the task needs on all

@@ -24,9 +24,15 @@ figure svg { width: 100%; height: auto; display: block; border: 1px solid var(--
 figcaption { color: var(--soft); font-size: 14px; padding-top: 4px }
 .hand { display: grid; gap: 16px; grid-template-columns: 1fr }
 .row { display: grid; gap: 16px; grid-template-columns: 1fr }
+.pair { display: grid; gap: 8px 48px; grid-template-columns: 1fr; align-items: start }
+.hand, .row { margin-bottom: 14px }
+.key { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: 4px 22px;
+  color: var(--soft); font-size: 14px }
+.key svg { vertical-align: middle }
 @media (min-width: 760px) {
   .hand { grid-template-columns: 2fr 1fr; grid-template-rows: auto auto auto }
   .hand .main { grid-row: 1 / span 3 }
+  .pair { grid-template-columns: 1fr 1fr }
   .row { grid-template-columns: repeat(3, 1fr) } }
 table { border-collapse: collapse; width: 100%; font-size: 15px }
 caption { text-align: left; color: var(--soft); padding-bottom: 6px }
@@ -99,9 +105,15 @@ forces in units of one finger’s greatest normal force, torques in their produc
           kind radius axis))
 
 (defun fingers-words (subject)
-  (list-text (loop for contact in (subject-contacts subject)
-                   collect (format nil "finger ~d on ~a" (contact-number contact)
-                                   (surface-name (contact-face contact))))))
+  "Return which fingers are on which face."
+  (let ((contacts (subject-contacts subject)))
+    (list-text
+     (loop for face in (remove-duplicates (mapcar #'contact-face contacts) :from-end t)
+           for numbers = (loop for contact in contacts
+                               when (= face (contact-face contact))
+                                 collect (contact-number contact))
+           collect (format nil "finger~p ~a on ~a" (length numbers) (list-text numbers)
+                           (surface-name face))))))
 
 (defun verdict-words (plan)
   "Return the verdict of PLAN, a list of sentences."
@@ -127,23 +139,27 @@ forces in units of one finger’s greatest normal force, torques in their produc
 
 ;;; The box
 
-(defun put-box (box gamma)
-  "Write the table of what is known of BOX and of its task."
+(defun put-given (box gamma)
+  "Write the table of what is known of BOX."
   (markup
     (:table
      (:caption "What was given")
      (:tbody
-      (loop for (name . value) in
-            `(("Size along X, Y, Z" . ,(format nil "~{~a × ~a × ~a~} cm"
-                                               (mapcar #'length-text (box-size box))))
-              ("Weight" . ,(format nil "~a finger forces" (decimal (box-weight box) 4)))
-              ("Friction u" . ,(decimal (box-friction box) 4))
-              ("Soft finger v" . ,(format nil "~a cm" (decimal (box-soft-friction box) 4)))
-              ("Constrained faces" . ,(if (box-constrained box)
-                                          (list-text (box-constrained box))
-                                          "none"))
-              ("Selection parameter γ" . ,(decimal gamma 3)))
-            do (markup (:tr (:th :scope "row" (say "~a" name)) (:td (say "~a" value)))))))
+      (loop for (name value) in
+            `(("Size along X, Y, Z" ,(format nil "~{~a × ~a × ~a~} cm"
+                                             (mapcar #'length-text (box-size box))))
+              ("Weight" ,(format nil "~a finger forces" (decimal (box-weight box) 4)))
+              ("Friction u" ,(decimal (box-friction box) 4))
+              ("Soft finger v" ,(format nil "~a cm" (decimal (box-soft-friction box) 4)))
+              ("Constrained faces" ,(if (box-constrained box)
+                                        (list-text (box-constrained box))
+                                        "none"))
+              ("Selection parameter γ" ,(decimal gamma 3)))
+            do (markup (:tr (:th :scope "row" (say "~a" name)) (:td (say "~a" value)))))))))
+
+(defun put-needs (box)
+  "Write the table of what the task of BOX needs."
+  (markup
     (:table
      (:caption "What the task needs, from 0 to 1")
      (:thead (:tr (:th :scope "col" "Axis") (:th :scope "col" "Force or torque")
@@ -158,9 +174,23 @@ forces in units of one finger’s greatest normal force, torques in their produc
 
 ;;; Pictures that fit a telephone
 
+(defun put-key (signs)
+  "Write what SIGNS mean (see +KEY+)."
+  (markup
+    (:ul :class "key"
+         (loop for (sign wide text) in signs
+               do (markup
+                    (:li (when (plusp wide)
+                           (format *out* "<svg class=\"sg\" width=\"~d\" height=\"20\" ~
+                                          aria-hidden=\"true\">" (+ wide 6))
+                           (let ((*obstacles* '()) (*strokes* '()))
+                             (funcall sign (+ 3 (/ wide 2)) 10))
+                           (format *out* "</svg> "))
+                         (say "~a" text)))))))
+
 (defun main-picture (subject title description)
-  (with-picture (440 420 title description)
-    (draw-main-view subject '(6 6 428 408))))
+  (with-picture (440 370 title description)
+    (draw-main-view subject '(6 6 428 358))))
 
 (defun flat-picture (subject index)
   "Return SUBJECT seen from one of the three sides."
@@ -190,9 +220,7 @@ forces in units of one finger’s greatest normal force, torques in their produc
                         nil "main")
             (dotimes (i 3) (put-figure (flat-picture subject i) nil)))
       (when best (markup (:p :class "soft" (say "~a" (fingers-text subject)))))
-      (put-figure (with-picture (880 40 "Key" "What the signs of the pictures mean.")
-                    (draw-key 12 25 860))
-                  nil))))
+      (put-key +key+))))
 
 (defun put-best (plan)
   "Write the pictures of the three best grasps of PLAN, and of what they have against what is
@@ -216,12 +244,10 @@ needed."
             (loop for candidate in candidates
                   for place from 1
                   do (put-figure
-                      (with-picture (374 460 (candidate-title candidate) (quality-words candidate))
+                      (with-picture (374 410 (candidate-title candidate) (quality-words candidate))
                         (draw-candidate-quality candidate plan place 12 12 350))
                       nil)))
-      (put-figure (with-picture (880 40 "Key" "What the signs of the bars mean.")
-                    (draw-quality-key 12 26))
-                  nil))))
+      (put-key +quality-key+))))
 
 ;;; Candidates
 
@@ -367,7 +393,9 @@ the rule and to the facts that made it.  Needs no network and no script.  Return
      (:h2 (say "~:[The box~;The grasp~]" (plan-best plan)))
      (put-hand plan)
      (:h2 "Box and task")
-     (put-box (plan-box plan) (plan-gamma plan))
+     (:div :class "pair"
+           (put-given (plan-box plan) (plan-gamma plan))
+           (put-needs (plan-box plan)))
      (when (plan-possible plan)
        (markup (:h2 "The best few")
                (put-best plan)))

@@ -9,7 +9,6 @@
 
 (defun draw-session-cell (candidate subject place camera x y width height)
   "Draw CANDIDATE, the PLACEth best, seen by CAMERA, in a cell."
-  (draw-rectangle (+ x 3) y (- width 6) height "frame")
   (draw-text (fitting (format nil "~d  ~a" place (candidate-title candidate)) "bold" (- width 20))
              (list (+ x 12) (+ y 22)) :class "bold")
   (draw-text (fitting (matching-text (candidate-matching candidate)) "soft" (- width 20))
@@ -45,7 +44,8 @@
                 for subject in subjects
                 for place from 1
                 for x from 12 by wide
-                do (draw-session-cell candidate subject place camera x 72 wide high))))
+                do (draw-rectangle (+ x 3) 72 (- wide 6) high "frame")
+                   (draw-session-cell candidate subject place camera x 72 wide high))))
       (draw-key 24 (+ 72 high 26) (- width 48)))))
 
 (defun draw-session (plan file &key (count 3))

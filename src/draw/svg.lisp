@@ -24,7 +24,7 @@ the mark-up of what it shows."
 .sg .face { fill: #f3f3f1; fill-opacity: 0.5; stroke: none }
 .sg .blocked { fill: #cfcfcb; fill-opacity: 0.8; stroke: none }
 .sg .plate { fill: #dededa; stroke: #6a6a6a; stroke-width: 0.7 }
-.sg .hatch { stroke: #6a6a6a; stroke-width: 1 }
+.hatch { stroke: #6a6a6a; stroke-width: 1 }
 .sg .edge { fill: none; stroke: #1a1a1a; stroke-width: 1.6; stroke-linecap: round; stroke-linejoin: round }
 .sg .hidden { fill: none; stroke: #6a6a6a; stroke-width: 1; stroke-dasharray: 5 4 }
 .sg .thin { fill: none; stroke: #565656; stroke-width: 1 }
@@ -53,7 +53,7 @@ the mark-up of what it shows."
 .sg .block { fill: #23282d; stroke: #eceff1 }
 .sg .blocked { fill: #3c4248 }
 .sg .plate { fill: #33383d; stroke: #98a1a8 }
-.sg .hatch { stroke: #98a1a8 }
+.hatch { stroke: #98a1a8 }
 .sg .edge { stroke: #eceff1 }
 .sg .hidden { stroke: #98a1a8 }
 .sg .thin, .sg .centre { stroke: #b4bcc3 }

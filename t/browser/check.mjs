@@ -40,7 +40,7 @@ function complain(file, text) {
 // Runs in the page: what is wrong with the texts of the pictures in it.
 function measure() {
   const found = { problems: [], texts: 0, contacts: 0, pictures: 0 }
-  const pictures = [...document.querySelectorAll('svg.sg')]
+  const pictures = [...document.querySelectorAll('svg.sg[role=img]')]
   for (const svg of pictures.length ? pictures : [document.documentElement]) {
     found.pictures += 1
     const canvas = svg.getBoundingClientRect()
