@@ -44,7 +44,8 @@
                (:file "session-picture")
                (:file "quality-picture")
                (:file "system-picture")
-               (:file "report"))
+               (:file "report")
+               (:static-file "boot.lisp"))
   :in-order-to ((test-op (test-op "supergrip/draw-test"))))
 
 (defsystem "supergrip/chainer"
@@ -95,4 +96,15 @@
                (:file "properties")
                (:file "errors")
                (:file "scripts"))
+  :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))
+
+(defsystem "supergrip/draw-test"
+  :description "The tests of the pictures and reports; python3 parses them."
+  :license "MIT"
+  :depends-on ("supergrip/draw" "supergrip/chainer-test")
+  :pathname "t/"
+  :serial t
+  :components ((:file "random")
+               (:file "draw")
+               (:static-file "draw-check.py"))
   :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))

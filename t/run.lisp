@@ -2,11 +2,12 @@
 
 (require :asdf)
 
-;; Debian's FiveAM and what it needs, each directory named: a search could find another ASDF.
+;; Debian's FiveAM and what it needs, and cl-who for the pictures, each directory named: a search
+;; could find another ASDF.
 (asdf:initialize-source-registry
  `(:source-registry
    (:directory ,(merge-pathnames "../" (make-pathname :name nil :type nil :defaults *load-truename*)))
-   ,@(loop for name in '("fiveam" "alexandria" "asdf-flv" "trivial-backtrace")
+   ,@(loop for name in '("fiveam" "alexandria" "asdf-flv" "trivial-backtrace" "cl-who")
            collect `(:directory ,(format nil "/usr/share/common-lisp/source/~a/" name)))
    :inherit-configuration))
 

@@ -68,7 +68,7 @@ to the point if it is far."
                (let ((place (label-rectangle text point class direction distance)))
                  (when (and (within-p place area)
                             (notany (lambda (other) (overlap-p place other)) *obstacles*))
-                   (let ((cost (+ (* 1.5 (- distance away)) (* 14 (crossings place))
+                   (let ((cost (+ (* 1.5 (- distance away)) (* 22 (crossings place))
                                   (if toward
                                       (* 12 (- 1 (reduce #'+ (mapcar #'* direction toward))))
                                       0))))

@@ -26,6 +26,7 @@ figcaption { color: var(--soft); font-size: 14px; padding-top: 4px }
 .row { display: grid; gap: 16px; grid-template-columns: 1fr }
 .pair { display: grid; gap: 8px 48px; grid-template-columns: 1fr; align-items: start }
 .hand, .row { margin-bottom: 14px }
+.hand p { margin: 10px 0 }
 .key { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: 4px 22px;
   color: var(--soft); font-size: 14px }
 .key svg { vertical-align: middle }
@@ -213,14 +214,15 @@ forces in units of one finger’s greatest normal force, torques in their produc
                       (box-subject (plan-box plan) :load load))))
     (markup
       (:div :class "hand"
-            (put-figure (main-picture subject (page-title plan)
-                                      (if best
-                                          (candidate-description best plan subject)
-                                          (constrained-text (plan-box plan))))
-                        nil "main")
-            (dotimes (i 3) (put-figure (flat-picture subject i) nil)))
-      (when best (markup (:p :class "soft" (say "~a" (fingers-text subject)))))
-      (put-key +key+))))
+            (:div :class "main"
+                  (put-figure (main-picture subject (page-title plan)
+                                            (if best
+                                                (candidate-description best plan subject)
+                                                (constrained-text (plan-box plan))))
+                              nil)
+                  (when best (markup (:p :class "soft" (say "~a" (fingers-text subject)))))
+                  (put-key +key+))
+            (dotimes (i 3) (put-figure (flat-picture subject i) nil))))))
 
 (defun put-best (plan)
   "Write the pictures of the three best grasps of PLAN, and of what they have against what is
@@ -453,7 +455,7 @@ each linked to its page; and, unless PAGES is NIL, these pages, too.  Returns th
       (:header
        (:h1 "All boxes")
        (:p :class "verdict"
-           (say "~d box~:p~:*~[~;~:;~], ~d can be grasped." (length plans)
+           (say "~d box~:*~[es~;~:;es~], ~d can be grasped." (length plans)
                 (count :grasp plans :key #'plan-verdict))))
       (:main
        (:ul :class "cards"
