@@ -79,7 +79,7 @@
 
 (defun fingers-text (subject)
   "Return where the fingers are, for a reader."
-  (format nil "Fingers: ~{~a~^, ~} cm from the box centre, along X Y Z."
+  (format nil "Fingers: ~{~a~^, ~}; cm from the box centre."
           (loop for contact in (subject-contacts subject)
                 collect (format nil "~d on ~a at ~a" (contact-number contact)
                                 (surface-name (contact-face contact))

@@ -34,19 +34,24 @@ All of it is shown if that is not much more."
         (values (if (< from (* -0.9 half)) (- half) from)
                 (if (> to (* 0.9 half)) half to)))))
 
+(defun least-distance (places)
+  "Return the least of the distances between PLACES, or 0 if there is only one."
+  (loop for (p . rest) on places
+        append (mapcar (lambda (q) (distance p q)) rest) into distances
+        finally (return (if distances (reduce #'min distances) 0))))
+
 (defun find-window (size places palm)
-  "Return the corners of what is shown of a box of SIZE around PLACES, up to the face PALM: all of a
-box that is not much larger than the hand's hold of it."
+  "Return the corners of what is shown of a box of SIZE, held at PLACES, up to the face PALM: all of
+it, if that leaves the contacts apart from each other."
   (let* ((lows (apply #'mapcar #'min places))
          (highs (apply #'mapcar #'max places))
-         (sizes (sort (copy-list size) #'<))
-         (hold (max (reduce #'max (mapcar #'- highs lows)) (first sizes)
-                    (* 0.04 (third sizes))))
+         (hold (max (reduce #'max (mapcar #'- highs lows)) (reduce #'min size)))
+         (whole (<= (reduce #'max size) (* 14 (max (least-distance places) (* 0.2 hold)))))
          (low '()) (high '()))
     (loop for axis below 3
           for half = (/ (nth axis size) 2)
           do (multiple-value-bind (from to)
-                 (if (<= (third sizes) (* 7 hold))
+                 (if whole
                      (values (- half) half)
                      (window-along (nth axis lows) (nth axis highs) half (* 3.5 hold)))
                (when (= axis (surface-axis palm))
@@ -129,7 +134,7 @@ OPTIONS are other slots of the subject."
     (multiple-value-bind (low high)
         (if whole
             (values (v* -1 half) half)
-            (find-window size (cons (candidate-offset candidate) positions) palm))
+            (find-window size positions palm))
       (let* ((gap (gap-of low high))
              (level (palm-level palm low high positions gap))
              (subject (apply #'make-subject :size size :low low :high high :gap gap :palm palm
