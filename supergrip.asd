@@ -85,11 +85,10 @@
 (defsystem "supergrip/test"
   :description "All tests."
   :license "MIT"
-  :depends-on ("supergrip" "supergrip/chainer-test")
+  :depends-on ("supergrip" "supergrip/chainer-test" "supergrip/random-boxes")
   :pathname "t/"
   :serial t
   :components ((:file "oracle")
-               (:file "random")
                (:file "paper")
                (:file "statics")
                (:file "rules")
@@ -98,13 +97,19 @@
                (:file "scripts"))
   :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))
 
+(defsystem "supergrip/random-boxes"
+  :description "Random boxes for tests."
+  :license "MIT"
+  :depends-on ("supergrip/chainer-test")
+  :pathname "t/"
+  :components ((:file "random")))
+
 (defsystem "supergrip/draw-test"
   :description "The tests of the pictures and reports; python3 parses them."
   :license "MIT"
-  :depends-on ("supergrip/draw" "supergrip/chainer-test")
+  :depends-on ("supergrip/draw" "supergrip/random-boxes")
   :pathname "t/"
   :serial t
-  :components ((:file "random")
-               (:file "draw")
+  :components ((:file "draw")
                (:static-file "draw-check.py"))
   :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))

@@ -6,7 +6,7 @@
 (in-package :supergrip-draw)
 
 (defparameter +reference-sizes+
-  '((5 4.4 3.8) (4 4 4) (8 7 6) (3 2.5 2) (12 11 10) (1.2 1.2 1.2) (10 4 2) (20 18 16))
+  '((6.4 4.6 4) (4 4 4) (8 7 6) (3 2.5 2) (12 11 10) (1.2 1.2 1.2) (10 4 2) (20 18 16))
   "Sizes of the reference boxes, in cm, in the order in which they are tried.")
 
 (defun reference-box (size u)
@@ -16,7 +16,7 @@
 
 (defun reference-plans (name knowledge)
   "Return the arguments of the plans in which the grasp NAME is to be tried, each on another box."
-  (loop for u in '(1.5d0 0.8d0 3d0)
+  (loop for u in '(2d0 0.8d0 4d0)
         append (loop for size in +reference-sizes+
                      collect (list name (reference-box size u) knowledge))))
 

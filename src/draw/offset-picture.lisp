@@ -7,7 +7,7 @@
 
 (in-package :supergrip-draw)
 
-(defparameter +offset-boxes+ '((4 14) (8 12))
+(defparameter +offset-boxes+ '((5.4 15) (8 12))
   "The two boxes: their sizes along N and A, in cm.")
 
 (defun offset-plan (across along knowledge)
@@ -92,8 +92,11 @@ whose top is at TOP."
                           :side '(1 0)))
         (draw-dimension (at (- half) (- top) 0 20) (at half (- top) 0 20)
                         (format nil "DIST (N1 N2) ~a" (length-text across)) :side '(0 1))
-        (draw-dimension (at 0 0) (at 0 offset) (format nil "offset ~a" (length-text offset))
-                        :side '(1 0))
+        (draw-dimension (at half offset 18) (at half 0 18)
+                        (format nil "offset ~a" (length-text offset)) :side '(1 0))
+        (draw-line (at 0 0) (at 0 offset) "thin")
+        (draw-line (at 0 0) (at half 0 18) "hidden")
+        (draw-line (at 0 0) (at (- half) 0 -18) "hidden")
         (draw-dimension (at (- half) top -18) (at (- half) 0 -18)
                         (format nil "half of DIST ~a" (length-text top))
                         :side '(-1 0))))))
@@ -102,7 +105,7 @@ whose top is at TOP."
   "Draw the box ACROSS x ALONG cm, how it is held, and the dimensions that matter."
   (multiple-value-bind (candidate plan) (offset-plan across along knowledge)
     (let* ((top (/ along 2))
-           (middle (list (+ x (/ width 2)) (+ y 150 (* scale top))))
+           (middle (list (+ x (/ width 2) -20) (+ y 150 (* scale top))))
            (offset (third (candidate-offset candidate))))
       (flet ((place (n a) (list (+ (first middle) (* scale n)) (- (second middle) (* scale a)))))
         (draw-text caption (list (+ x 12) (+ y 22)) :class "bold")

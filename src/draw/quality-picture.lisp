@@ -1,4 +1,4 @@
-;;;; quality-picture.lisp -- DRAW-QUALITY: what the best candidates have against what the task needs.
+;;;; quality-picture.lisp -- DRAW-QUALITY: what the best candidates have, and what the task needs.
 
 (in-package :supergrip-draw)
 

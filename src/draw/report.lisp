@@ -3,8 +3,8 @@
 (in-package :supergrip-draw)
 
 (defparameter +page-style+ "
-:root { color-scheme: light dark; --ink: #1a1a1a; --soft: #565656; --paper: #ffffff; --line: #d4d4cf;
-  --wash: #f6f6f4; --link: #0b4f8a }
+:root { color-scheme: light dark; --ink: #1a1a1a; --soft: #565656; --paper: #ffffff;
+  --line: #d4d4cf; --wash: #f6f6f4; --link: #0b4f8a }
 @media (prefers-color-scheme: dark) { :root { --ink: #eceff1; --soft: #b4bcc3; --paper: #15181b;
   --line: #3c4248; --wash: #1d2125; --link: #8cc4f5 } }
 * { box-sizing: border-box }
@@ -43,8 +43,8 @@ td.number { font-variant-numeric: tabular-nums; white-space: nowrap }
 tbody th { font-weight: bold }
 .face { font-weight: normal; color: var(--soft); display: block; font-size: 14px }
 .best td, .best th { background: var(--wash) }
-pre { background: var(--wash); padding: 10px 12px; margin: 0 0 10px; font-size: 13px; line-height: 1.45;
-  white-space: pre-wrap; overflow-wrap: anywhere }
+pre { background: var(--wash); padding: 10px 12px; margin: 0 0 10px; font-size: 13px;
+  line-height: 1.45; white-space: pre-wrap; overflow-wrap: anywhere }
 .facts { padding-left: 1.6em }
 .facts li { margin-bottom: 8px }
 :target { background: var(--wash); outline: 2px solid var(--link) }
@@ -57,7 +57,8 @@ footer { color: var(--soft); font-size: 14px; padding: 32px 20px 40px }
 .cards strong { color: var(--link); overflow-wrap: anywhere }
 @media print { body { font-size: 11pt } header, main, footer { max-width: none; padding: 0 }
   h2 { break-after: avoid } figure, tr, li, pre { break-inside: avoid }
-  a { color: inherit } .hand { grid-template-columns: 2fr 1fr } .row { grid-template-columns: repeat(3, 1fr) } }
+  a { color: inherit } .hand { grid-template-columns: 2fr 1fr }
+  .row { grid-template-columns: repeat(3, 1fr) } }
 " "What pages look like.")
 
 (defmacro say (control &rest arguments)
@@ -384,8 +385,8 @@ needed."
 ;;; The page
 
 (defun report (plan file)
-  "Write a page about PLAN to FILE, HTML complete in itself: the box, the verdict in words, pictures,
-all candidates with the reasons of those that failed, and what the rules found, each fact linked to
+  "Write a page about PLAN to FILE, HTML complete in itself: the box, the verdict in words,
+pictures, all candidates with the reasons of those that failed, and what the rules found, each fact linked to
 the rule and to the facts that made it.  Needs no network and no script.  Returns FILE."
   (with-page (file (format nil "SUPER-GRIP: ~a" (page-title plan)))
     (:header
@@ -441,7 +442,8 @@ the rule and to the facts that made it.  Needs no network and no script.  Return
              (write-picture (thumbnail plan) *out* :inline t)
              (:strong (say "~a" (page-title plan)))
              (:br)
-             (say "~:[can’t be grasped~;~:*~a, Q = ~,3f~]" (plan-grasp plan) (plan-quality plan))))))
+             (say "~:[can’t be grasped~;~:*~a, Q = ~,3f~]" (plan-grasp plan)
+                  (plan-quality plan))))))
 
 (defun report-index (plans directory &key (pages t))
   "Write index.html into DIRECTORY: a thumbnail and the verdict of each of PLANS, in their order,

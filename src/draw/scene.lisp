@@ -1,8 +1,8 @@
 ;;;; scene.lisp -- a subject seen by a camera.
 ;;;;
 ;;;; The box is convex and hand and plates are outside it, so what lies beyond a face that is turned
-;;;; away can hide no part of the box, and what lies beyond a face that is turned to the viewer can't
-;;;; be hidden by it: painting the first, then the box, then the second, is exact.  The faces of the
+;;;; away can hide no part of the box, and what lies beyond a face that is turned to the viewer
+;;;; can't be hidden by it: painting the first, then the box, then the second, is exact.  The faces of the
 ;;;; box are drawn as of glass, and what is behind them dashed, as in technical drawing.
 
 (in-package :supergrip-draw)
@@ -109,7 +109,8 @@ at all."
   "Draw the faces of the box that are turned to the viewer, constrained ones hatched."
   (dolist (face '(0 1 2 3 4 5))
     (when (= 1 (face-turned face))
-      (let ((outline (mapcar #'at (face-corners face (subject-low subject) (subject-high subject)))))
+      (let ((outline (mapcar #'at (face-corners face (subject-low subject)
+                                                (subject-high subject)))))
         (draw-polygon outline "face")
         (when (and (shown-face-p face subject) (member face (subject-blocked subject)))
           (draw-polygon outline "blocked")
@@ -160,7 +161,7 @@ box as seen edge-on, so that the box can't hide it."
         '(0 1 2 3 4 5)))
 
 (defun draw-behind (a b outline)
-  "Draw the segment of a finger from A to B, points, which the box hides where it is inside OUTLINE."
+  "Draw the part of a finger from the point A to B, which the box hides where it is inside OUTLINE."
   (multiple-value-bind (from to) (inside-part a b outline)
     (if (null from)
         (draw-finger-line (list a b))
@@ -258,6 +259,13 @@ box as seen edge-on, so that the box can't hide it."
   (let ((length (distance from to)))
     (and (> length 4) (mapcar (lambda (a b) (/ (- b a) length)) from to))))
 
+(defun outward (apex anchor middle)
+  "Return the direction in which the label at ANCHOR had best stand: on from APEX, the contact, and
+away from the MIDDLE of the others; or NIL."
+  (let ((on (or (direction apex anchor) '(0 0)))
+        (away (or (direction middle anchor) '(0 0))))
+    (direction '(0 0) (mapcar (lambda (a b) (+ (* 10 a) (* 10 b))) on away))))
+
 (defun contact-label (contacts subject)
   (if *small*
       (format nil "~{~d~^, ~}" (mapcar #'contact-number contacts))
@@ -281,7 +289,7 @@ box as seen edge-on, so that the box can't hide it."
                (ask-for-label (contact-label same subject)
                               (if (< (distance anchor apex) 1) apex anchor)
                               :class "bold" :away 7 :leader t
-                              :toward (or (direction apex anchor) (direction middle anchor)))
+                              :toward (outward apex anchor middle))
                (setf left (set-difference left same))
                (setf left (sort left #'< :key #'contact-number))))))
 

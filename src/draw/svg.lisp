@@ -25,15 +25,16 @@ the mark-up of what it shows."
 .sg .blocked { fill: #cfcfcb; fill-opacity: 0.8; stroke: none }
 .sg .plate { fill: #dededa; stroke: #6a6a6a; stroke-width: 0.7 }
 .hatch { stroke: #6a6a6a; stroke-width: 1 }
-.sg .edge { fill: none; stroke: #1a1a1a; stroke-width: 1.6; stroke-linecap: round; stroke-linejoin: round }
+.sg .edge, .sg .finger, .sg .core { fill: none; stroke-linecap: round; stroke-linejoin: round }
+.sg .edge { stroke: #1a1a1a; stroke-width: 1.6 }
 .sg .hidden { fill: none; stroke: #6a6a6a; stroke-width: 1; stroke-dasharray: 5 4 }
 .sg .thin { fill: none; stroke: #565656; stroke-width: 1 }
 .sg .centre { fill: none; stroke: #565656; stroke-width: 1; stroke-dasharray: 12 3 2 3 }
 .sg .frame { fill: none; stroke: #b9b9b4; stroke-width: 1 }
-.sg .finger { fill: none; stroke: #0b4f8a; stroke-width: 7; stroke-linecap: round; stroke-linejoin: round }
-.sg .core { fill: none; stroke: #d9e8f6; stroke-width: 3.6; stroke-linecap: round; stroke-linejoin: round }
+.sg .finger { stroke: #0b4f8a; stroke-width: 7 }
+.sg .core { stroke: #d9e8f6; stroke-width: 3.6 }
 .sg .behind { fill: none; stroke: #0b4f8a; stroke-width: 2; stroke-dasharray: 6 4 }
-.sg .palm { fill: #d9e8f6; fill-opacity: 0.72; stroke: #0b4f8a; stroke-width: 1.6; stroke-linejoin: round }
+.sg .palm { fill: #d9e8f6; fill-opacity: 0.72; stroke: #0b4f8a; stroke-width: 1.6 }
 .sg .approach { fill: #ffffff; stroke: #0b4f8a; stroke-width: 1.6; stroke-linejoin: round }
 .sg .tip { fill: #0b4f8a; stroke: #ffffff; stroke-width: 1 }
 .sg .tip-hidden { fill: #ffffff; stroke: #0b4f8a; stroke-width: 1.6 }
@@ -196,7 +197,8 @@ the mark-up of what it shows."
                (push line lines)
                (setf line word))
               (t (setf line longer)))))
-    (mapcar (lambda (line) (fitting line class width)) (reverse (if line (cons line lines) lines)))))
+    (mapcar (lambda (line) (fitting line class width))
+            (reverse (if line (cons line lines) lines)))))
 
 (defun text-box (text point class anchor)
   "Return the rectangle that TEXT takes, whose baseline is at POINT."

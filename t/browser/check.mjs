@@ -1,6 +1,6 @@
 // check.mjs -- looks at pictures and pages in headless Chromium, and measures them.
 //
-//   sbcl --script examples/figures.lisp DIRECTORY      makes what there is to check
+//   sbcl --script t/browser/pictures.lisp DIRECTORY    makes what there is to check
 //   cd t/browser && npm install
 //   node check.mjs DIRECTORY [SCREENSHOTS]
 //
@@ -8,9 +8,9 @@
 //
 // Each .svg: no text leaves the canvas, none touches a contact, no two texts overlap; the boxes are
 // those that the browser has laid out.  Each .html, 390 and 1280 wide, light and dark: axe-core has
-// nothing to say, and nothing is wider than the window; the texts of its pictures are measured, too.
-// With SCREENSHOTS, a folder, pages and pictures are saved there as PNG.  Ends with 1 if anything is
-// wrong.
+// nothing to say, and nothing is wider than the window; the texts of its pictures are measured,
+// too.  With SCREENSHOTS, a folder, pages and pictures are saved there as PNG.  Ends with 1 if
+// anything is wrong.
 
 import { readFileSync, readdirSync, mkdirSync } from 'node:fs'
 import { createRequire } from 'node:module'
@@ -80,7 +80,7 @@ function measure() {
       const b = box(node)
       if (b.x0 < canvas.left - 1 || b.x1 > canvas.right + 1 ||
           b.y0 < canvas.top - 1 || b.y1 > canvas.bottom + 1) {
-        found.problems.push(`a ${node.tagName} of class ${node.getAttribute('class')} leaves the canvas`)
+        found.problems.push(`a ${node.tagName}.${node.getAttribute('class')} leaves the canvas`)
       }
     }
   }
