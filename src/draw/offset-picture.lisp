@@ -7,7 +7,7 @@
 
 (in-package :supergrip-draw)
 
-(defparameter +offset-boxes+ '((5.4 15) (8 12))
+(defparameter +offset-boxes+ '((5.4d0 15) (8 12))
   "The two boxes: their sizes along N and A, in cm.")
 
 (defun offset-plan (across along knowledge)

@@ -260,11 +260,13 @@ box as seen edge-on, so that the box can't hide it."
     (and (> length 4) (mapcar (lambda (a b) (/ (- b a) length)) from to))))
 
 (defun outward (apex anchor middle)
-  "Return the direction in which the label at ANCHOR had best stand: on from APEX, the contact, and
-away from the MIDDLE of the others; or NIL."
-  (let ((on (or (direction apex anchor) '(0 0)))
-        (away (or (direction middle anchor) '(0 0))))
-    (direction '(0 0) (mapcar (lambda (a b) (+ (* 10 a) (* 10 b))) on away))))
+  "Return the direction in which the label at ANCHOR had best stand: on from APEX, the contact, or,
+where there is room for more than numbers, also away from the MIDDLE of the others; or NIL."
+  (let ((on (direction apex anchor))
+        (away (direction middle anchor)))
+    (if (and on away (not *small*))
+        (direction '(0 0) (mapcar (lambda (a b) (+ (* 10 a) (* 10 b))) on away))
+        (or on away))))
 
 (defun contact-label (contacts subject)
   (if *small*
