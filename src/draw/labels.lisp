@@ -63,12 +63,12 @@ to the point if it is far."
   "Return the best rectangle for TEXT in AREA that touches no obstacle, or NIL."
   (let ((best nil) (least nil))
     (loop for distance from away to reach by 6
-          until (and best (< least (* 1.5 (- distance away))))
+          until (and best (< least (* 1.1 (- distance away))))
           do (dolist (direction +directions+)
                (let ((place (label-rectangle text point class direction distance)))
                  (when (and (within-p place area)
                             (notany (lambda (other) (overlap-p place other)) *obstacles*))
-                   (let ((cost (+ (* 1.5 (- distance away)) (* 22 (crossings place))
+                   (let ((cost (+ (* 1.1 (- distance away)) (* 30 (crossings place))
                                   (if toward
                                       (* 12 (- 1 (reduce #'+ (mapcar #'* direction toward))))
                                       0))))

@@ -138,10 +138,9 @@
 
 (defun plan-picture (plan)
   "Return the picture of PLAN."
-  (let ((best (first (plan-possible plan))))
-    (if (and best (eq (plan-verdict plan) :grasp))
-        (candidate-picture (or (plan-best plan) best) plan)
-        (cant-picture plan))))
+  (if (plan-best plan)
+      (candidate-picture (plan-best plan) plan)
+      (cant-picture plan)))
 
 (defun draw-plan (plan file)
   "Draw the box of PLAN and its best grasp, or the box that can't be grasped, into FILE, an SVG

@@ -30,7 +30,7 @@ figcaption { color: var(--soft); font-size: 14px; padding-top: 4px }
 .key { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: 4px 22px;
   color: var(--soft); font-size: 14px }
 .key svg { vertical-align: middle }
-@media (min-width: 760px) {
+@media (min-width: 760px), print {
   .hand { grid-template-columns: 2fr 1fr; grid-template-rows: auto auto auto }
   .hand .main { grid-row: 1 / span 3 }
   .pair { grid-template-columns: 1fr 1fr }
@@ -57,8 +57,7 @@ footer { color: var(--soft); font-size: 14px; padding: 32px 20px 40px }
 .cards strong { color: var(--link); overflow-wrap: anywhere }
 @media print { body { font-size: 11pt } header, main, footer { max-width: none; padding: 0 }
   h2 { break-after: avoid } figure, tr, li, pre { break-inside: avoid }
-  a { color: inherit } .hand { grid-template-columns: 2fr 1fr }
-  .row { grid-template-columns: repeat(3, 1fr) } }
+  a { color: inherit } }
 " "What pages look like.")
 
 (defmacro say (control &rest arguments)

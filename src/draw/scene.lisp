@@ -125,11 +125,19 @@ at all."
              (blocked (member face (subject-blocked subject)))
              (name (funcall (subject-namer subject) face)))
         (if blocked
-            (ask-for-label (format nil "~a constrained" name) (middle corners)
-                           :class "soft" :away 0 :leader t)
+            (let* ((centre (middle (silhouette subject)))
+                   (edge (farthest-edge corners centre)))
+              (ask-for-label (format nil "~a constrained" name) edge
+                             :class "soft" :away 6 :leader t :toward (direction centre edge)))
             (let ((place (face-name-place name corners)))
               (when place
                 (push (list name place) *face-names*))))))))
+
+(defun farthest-edge (corners point)
+  "Return the middle of that edge of the outline CORNERS that is farthest from POINT."
+  (first (sort (loop for (a b) on (append corners (list (first corners)))
+                     while b collect (along a b 0.5d0))
+               #'> :key (lambda (middle) (distance middle point)))))
 
 (defun face-name-place (name corners)
   "Return a rectangle inside the outline CORNERS where NAME can stand, near a corner, or NIL."

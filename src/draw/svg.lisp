@@ -244,13 +244,14 @@ the style and the patterns."
 
 (defmacro with-output-to ((stream file) &body body)
   "Run BODY with STREAM bound to FILE, opened for UTF-8 text, and return FILE."
-  `(progn
-     (ensure-directories-exist ,file)
-     (with-open-file (,stream ,file :direction :output :if-exists :supersede
-                                    :external-format :utf-8)
-       (let ((*pictures-written* 0) (*print-pretty* nil))
-         ,@body))
-     ,file))
+  (let ((name (gensym "FILE")))
+    `(let ((,name ,file))
+       (ensure-directories-exist ,name)
+       (with-open-file (,stream ,name :direction :output :if-exists :supersede
+                                      :external-format :utf-8)
+         (let ((*pictures-written* 0) (*print-pretty* nil))
+           ,@body))
+       ,name)))
 
 (defun save-picture (picture file)
   "Write PICTURE to FILE, an SVG document, and return FILE."
