@@ -231,9 +231,9 @@ the style and the patterns."
     (unless inline
       (format stream "<?xml version=\"1.0\" encoding=\"UTF-8\"?>~%"))
     (format stream "<svg class=\"sg\" xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" ~
-                    width=\"~a\" height=\"~a\" viewBox=\"0 0 ~a ~a\" role=\"img\" ~
-                    aria-labelledby=\"~a-title ~a-desc\">~%"
-            width height width height id id)
+                    width=\"~a\" height=\"~a\" viewBox=\"0 0 ~a ~a\"~
+                    ~@[ role=\"img\" aria-labelledby=\"~a-title ~:*~a-desc\"~]>~%"
+            width height width height (and inline id))
     (format stream "<title id=\"~a-title\">~a</title>~%<desc id=\"~a-desc\">~a</desc>~%"
             id (safe (picture-title picture)) id (safe (picture-description picture)))
     (unless inline
