@@ -38,6 +38,30 @@
                (:static-file "build.lisp"))
   :in-order-to ((test-op (test-op "supergrip/test"))))
 
+(defsystem "supergrip/draw"
+  :description "Pictures of boxes, grasps and plans, as SVG, and reports, as HTML."
+  :version "0.1.0"
+  :license "MIT"
+  :depends-on ("supergrip" "cl-who")
+  :pathname "src/draw/"
+  :serial t
+  :components ((:file "package")
+               (:file "geometry")
+               (:file "labels")
+               (:file "svg")
+               (:file "subject")
+               (:file "scene")
+               (:file "pictures")
+               (:file "plan-picture")
+               (:file "grasps-picture")
+               (:file "offset-picture")
+               (:file "session-picture")
+               (:file "quality-picture")
+               (:file "system-picture")
+               (:file "report")
+               (:static-file "boot.lisp"))
+  :in-order-to ((test-op (test-op "supergrip/draw-test"))))
+
 (defsystem "supergrip/chainer"
   :description "The upper level alone: the data reader, and an s-expression forward chainer."
   :version "0.1.0"
@@ -78,11 +102,10 @@
 (defsystem "supergrip/test"
   :description "All tests."
   :license "MIT"
-  :depends-on ("supergrip" "supergrip/chainer-test" "supergrip/oracle")
+  :depends-on ("supergrip" "supergrip/chainer-test" "supergrip/random-boxes" "supergrip/oracle")
   :pathname "t/"
   :serial t
-  :components ((:file "random")
-               (:file "paper")
+  :components ((:file "paper")
                (:file "statics")
                (:file "rules")
                (:file "properties")
@@ -123,3 +146,20 @@
                              (:file "report")
                              (:static-file "pencil.clp")
                              (:static-file "run.lisp")))))
+
+(defsystem "supergrip/random-boxes"
+  :description "Random boxes for tests."
+  :license "MIT"
+  :depends-on ("supergrip/chainer-test")
+  :pathname "t/"
+  :components ((:file "random")))
+
+(defsystem "supergrip/draw-test"
+  :description "The tests of the pictures and reports; python3 parses them."
+  :license "MIT"
+  :depends-on ("supergrip/draw" "supergrip/random-boxes")
+  :pathname "t/"
+  :serial t
+  :components ((:file "draw")
+               (:static-file "draw-check.py"))
+  :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))

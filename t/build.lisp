@@ -7,7 +7,7 @@
 (asdf:initialize-source-registry
  `(:source-registry
    (:directory ,(merge-pathnames "../" (make-pathname :name nil :type nil :defaults *load-truename*)))
-   ,@(loop for name in '("fiveam" "alexandria" "asdf-flv" "trivial-backtrace")
+   ,@(loop for name in '("fiveam" "alexandria" "asdf-flv" "trivial-backtrace" "cl-who")
            collect `(:directory ,(format nil "/usr/share/common-lisp/source/~a/" name)))
    :inherit-configuration))
 
@@ -15,13 +15,16 @@
 
 (let ((*standard-output* (make-broadcast-stream)))
   (asdf:load-system "fiveam")
+  (handler-bind ((asdf/parse-defsystem:bad-system-name #'muffle-warning))
+    (asdf:load-system "cl-who"))
   ;; SBCL notes that loading a file defines again the macros that compiling it has defined.
   (handler-bind ((sb-kernel:redefinition-with-defmacro #'muffle-warning)
                  (warning (lambda (warning) (push (princ-to-string warning) *warnings*))))
     (asdf:load-system "supergrip/test" :force '("supergrip" "supergrip/chainer"
                                                 "supergrip/chainer-test" "supergrip/oracle"
-                                                "supergrip/test"))
-    (asdf:load-system "supergrip/bench" :force '("supergrip/bench"))))
+                                                "supergrip/random-boxes" "supergrip/test"))
+    (asdf:load-system "supergrip/bench" :force '("supergrip/bench"))
+    (asdf:load-system "supergrip/draw-test" :force '("supergrip/draw" "supergrip/draw-test"))))
 
 (format t "~{~a~%~}~d warning~:p~%" (reverse *warnings*) (length *warnings*))
 (finish-output)

@@ -1,0 +1,153 @@
+;;;; grasps-picture.lisp -- DRAW-GRASPS: the grasp modes, the paper's Figure 1.
+;;;;
+;;;; Each grasp is tried on reference boxes, smaller and larger ones, till one can be held, and is
+;;;; drawn with the palm above: so a grasp that a user has added is drawn, too, from its data.
+
+(in-package :supergrip-draw)
+
+(defparameter +reference-sizes+
+  '((6.4 4.6 4) (4 4 4) (8 7 6) (3 2.5 2) (12 11 10) (1.2 1.2 1.2) (10 4 2) (20 18 16))
+  "Sizes of the reference boxes, in cm, in the order in which they are tried.")
+
+(defun reference-box (size u)
+  "Return the description of a reference box, free on all sides, whose task needs a little of all."
+  `((size ,@size) (weight 0) (u ,u) (v 0.2) (constrained)
+    (force-needed (0.1 0.1 0.1 0.1 0.1 0.1)) (velocity-needed (0 0 0 0 0 0))))
+
+(defun reference-plans (name knowledge)
+  "Return the arguments of the plans in which the grasp NAME is to be tried, each on another box."
+  (loop for u in '(2d0 0.8d0 4d0)
+        append (loop for size in +reference-sizes+
+                     collect (list name (reference-box size u) knowledge))))
+
+(defun reference-candidate (name knowledge)
+  "Return a possible candidate of the grasp NAME, and its plan; or NIL."
+  (loop for (name box knowledge) in (reference-plans name knowledge)
+        for plan = (try-grasp name box :knowledge knowledge)
+        do (when (plan-possible plan)
+             (return (values (best-seen (plan-possible plan) plan) plan)))))
+
+(defun best-seen (candidates plan)
+  "Return the one of CANDIDATES of PLAN whose contacts are seen best with the palm above."
+  (let ((best nil) (most nil))
+    (dolist (candidate candidates best)
+      (let ((score (nth-value 1 (best-camera (list (grasp-subject candidate plan)) 26
+                                             (palm-face candidate)))))
+        (when (or (null most) (> score (+ most 1d-6)))
+          (setf best candidate most score))))))
+
+(defun slot-namer (candidate)
+  "Return a function that gives the grasp's own name of a face of the box."
+  (lambda (face)
+    (aref #("N1" "N2" "O1" "O2" "A1" "A2")
+          (position (surface-name face) (candidate-matching candidate) :test #'string=))))
+
+(defun slot-axes (candidate)
+  "Return the vectors of N, O and A."
+  (loop for (face) on (candidate-matching candidate) by #'cddr
+        collect (face-normal (surface-index face))))
+
+(defun draw-slot-axes (camera candidate point)
+  "Draw the axes N O A of CANDIDATE at POINT."
+  (let ((view (make-view :camera camera :scale 26 :origin point)))
+    (loop for vector in (slot-axes candidate)
+          for name in '("N" "O" "A")
+          for end = (project view vector)
+          for way = (max 1 (distance point end))
+          do (draw-axis point end)
+             (draw-text name (let ((beyond (along point end (/ (+ way 9) way))))
+                               (list (first beyond) (+ 4 (second beyond))))
+                        :class "soft" :anchor :middle))))
+
+(defun grasp-summary (subject)
+  "Return in words which fingers oppose which, and where the palm is."
+  (let* ((name (subject-namer subject))
+         (by-face (loop for face in '(1 0 3 2 5 4)
+                        for numbers = (loop for contact in (subject-contacts subject)
+                                            when (= face (contact-face contact))
+                                              collect (contact-number contact))
+                        when numbers collect (cons face numbers)))
+         (pairs (loop for (face . numbers) in by-face
+                      for other = (cdr (assoc (opposite face) by-face))
+                      when (and other (oddp face))
+                        collect (format nil "~{~d~^ and ~} ~:[oppose~;opposes~] ~{~d~^ and ~}"
+                                        numbers (null (rest numbers)) other))))
+    (format nil "~:[no two fingers oppose~;~:*~{~a~^, ~}~]; palm over ~a" pairs
+            (funcall name (subject-palm subject)))))
+
+(defun draw-grasp-cell (name knowledge x y width height)
+  "Draw the grasp NAME in a cell of a table of pictures.  Returns what it shows, in words."
+  (multiple-value-bind (candidate plan) (reference-candidate name knowledge)
+    (draw-text (fitting name "bold" (- width 16)) (list (+ x 10) (+ y 22)) :class "bold")
+    (if (null candidate)
+        (progn
+          (loop for line in (filled "possible on none of the reference boxes" "soft" (- width 20))
+                for below from (+ y 60) by 18
+                do (draw-text line (list (+ x 10) below) :class "soft"))
+          (format nil "~a: possible on none of the reference boxes." name))
+        (draw-reference candidate plan x y width height))))
+
+(defun draw-reference (candidate plan x y width height)
+  (let* ((subject (grasp-subject candidate plan :namer (slot-namer candidate) :labelled nil))
+         (camera (best-camera (list subject) 26 (palm-face candidate)))
+         (view (fit-view camera (subject-vectors subject)
+                         (list (+ x 34) (+ y 60) (- width 76) (- height 108))))
+         (summary (grasp-summary subject)))
+    (draw-text summary (list (+ x 10) (+ y 41)) :class "soft")
+    (draw-slot-axes camera candidate (list (+ x 40) (+ y height -40)))
+    (occupy (list (+ x 2) (+ y height -78) 76 76))
+    (draw-subject subject view)
+    (place-labels (list (+ x 4) (+ y 48) (- width 8) (- height 52)))
+    (format nil "~a: ~{~a~^, ~}; ~a." (candidate-grasp candidate)
+            (loop for contact in (subject-contacts subject)
+                  collect (format nil "finger ~d on ~a" (contact-number contact)
+                                  (funcall (subject-namer subject) (contact-face contact))))
+            summary)))
+
+(defun grasp-names (knowledge)
+  (mapcar #'supergrip::grasp-name (knowledge-grasps knowledge)))
+
+(defparameter +grasp-key+
+  '((key-contact 20 "contact of a finger") (key-hidden 20 "contact behind the box")
+    (key-closing 30 "these fingers oppose each other")
+    (key-centre 20 "grasp centre"))
+  "The signs of the key to the grasps.")
+
+(defun draw-grasps-key (x y)
+  "Draw the key to the grasps in the table's last, free cell."
+  (loop for sign in +grasp-key+
+        for line from (+ y 60) by 26
+        do (draw-key x line 400 :signs (list sign)))
+  (loop for text in '("1, 2, 3 are the fingers." "N O A are the axes of the grasp:"
+                      "N1 is the face on the + side of N,"
+                      "N2 the one opposed to it, and so on." "The palm is above.")
+        for line from (+ y 172) by 21
+        do (draw-text text (list x line) :class "soft")))
+
+(defun grasps-picture (knowledge)
+  "Return the picture of all grasps of KNOWLEDGE."
+  (let* ((names (grasp-names knowledge))
+         (columns 3)
+         (rows (ceiling (1+ (length names)) columns))
+         (wide 330) (high 320)
+         (width (+ 24 (* columns wide)))
+         (words '()))
+    (flet ((cell (i) (multiple-value-bind (row column) (floor i columns)
+                       (values (+ 12 (* column wide)) (+ 72 (* row high))))))
+      (let ((picture
+              (with-picture (width (+ 78 (* rows high)) "Grasp modes" "")
+                (draw-heading "Grasp modes" (list +scale-words+) width)
+                (loop for name in names
+                      for i from 0
+                      do (multiple-value-bind (x y) (cell i)
+                           (draw-rectangle (+ x 3) y (- wide 6) (- high 8) "frame")
+                           (push (draw-grasp-cell name knowledge x y wide (- high 8)) words)))
+                (multiple-value-bind (x y) (cell (length names))
+                  (draw-grasps-key (+ x 16) y)))))
+        (setf (picture-description picture) (format nil "~{~a~^ ~}" (reverse words)))
+        picture))))
+
+(defun draw-grasps (file &key (knowledge *knowledge*))
+  "Draw all grasps of KNOWLEDGE, each on a reference box, into FILE, an SVG picture: the paper's
+Figure 1.  Only the data of a grasp are used, so a new one is drawn, too.  Returns FILE."
+  (save-picture (grasps-picture knowledge) file))

@@ -1,0 +1,14 @@
+;;;; package.lisp -- what SUPERGRIP-DRAW exports.
+
+(defpackage :supergrip-draw
+  (:use :cl :supergrip)
+  (:import-from :supergrip-chainer #:surface-index #:surface-name #:surface-axis #:surface-sign
+                #:opposite)
+  (:documentation "Pictures of boxes, grasps and plans, as SVG, and reports, as HTML.")
+  (:export
+   ;; the paper's figures
+   #:draw-grasps #:draw-offset #:draw-system #:draw-session
+   ;; pictures of one plan
+   #:draw-plan #:draw-quality
+   ;; reports
+   #:report #:report-index))

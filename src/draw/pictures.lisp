@@ -1,0 +1,109 @@
+;;;; pictures.lisp -- what all pictures of grasps share: where to look from, headings, the key.
+
+(in-package :supergrip-draw)
+
+(defparameter +azimuths+ '(-58 32 122 212 -32 58 148 238)
+  "The directions from which a box may be seen, in degrees; the first are preferred.")
+
+(defun contact-score (contact camera)
+  "Return how well CONTACT is seen: how far its face is turned to CAMERA."
+  (let ((cosine (dot (face-normal (contact-face contact)) (camera-toward camera))))
+    (if (plusp cosine) (+ 1 (* 0.5 cosine)) 0)))
+
+(defun spread-score (subject camera)
+  "Return by how little the contacts of SUBJECT cover each other: the least of their distances as
+seen, in gaps, 1 at most."
+  (let* ((view (make-view :camera camera))
+         (points (loop for contact in (subject-contacts subject)
+                       collect (project view (contact-position contact)))))
+    (loop with least = 1
+          for (p . rest) on points
+          do (dolist (q rest) (setf least (min least (/ (distance p q) (subject-gap subject)))))
+          finally (return least))))
+
+(defun view-score (subject camera)
+  "Return how well the contacts of SUBJECT are seen by CAMERA."
+  (+ (reduce #'+ (mapcar (lambda (contact) (contact-score contact camera))
+                         (subject-contacts subject)))
+     (spread-score subject camera)))
+
+(defun best-camera (subjects &optional (elevation 28) (top 1))
+  "Return the camera that sees the contacts of SUBJECTS best, the face TOP being above, and how
+well it does."
+  (let ((best nil) (most nil))
+    (loop for azimuth in +azimuths+
+          for place from 0
+          for camera = (camera-at azimuth elevation top)
+          for score = (- (reduce #'+ (mapcar (lambda (subject) (view-score subject camera))
+                                             subjects))
+                         (* 0.02 place))
+          do (when (or (null most) (> score most))
+               (setf best camera most score)))
+    (values best most)))
+
+(defun box-text (box)
+  "Return name and sizes of BOX for a heading."
+  (format nil "~@[~a, ~]~{~a~^ × ~} cm" (box-name box) (mapcar #'length-text (box-size box))))
+
+(defun quality-text (quality)
+  (format nil "Q = ~,3f" quality))
+
+(defun matching-text (matching)
+  (format nil "N1 N2 O1 O2 A1 A2 = ~{~a~^ ~}" matching))
+
+(defun weight-text (box)
+  "Return the weight of BOX as its arrow is labelled, or NIL if it has none."
+  (and (plusp (box-weight box)) (format nil "weight ~a" (decimal (box-weight box) 3))))
+
+(defun draw-heading (heading lines width)
+  "Write HEADING and LINES at the top of a picture WIDTH wide."
+  (let ((room (- width 48)))
+    (draw-text (fitting heading "heading" room) '(24 34) :class "heading")
+    (loop for line in lines
+          for y from 56 by 19
+          do (draw-text (fitting line "soft" room) (list 24 y) :class "soft"))))
+
+;;; The key
+
+(defparameter +scale-words+
+  "Box and contacts are to scale; fingers and palm are a diagram of where they come from."
+  "What is to scale.")
+
+(defun key-contact (x y) (draw-circle (list x y) 3 "contact"))
+(defun key-hidden (x y) (draw-circle (list x y) 3 "contact-hidden"))
+(defun key-blocked (x y)
+  (let ((outline (outline-of (list (- x 9) (- y 6) 18 12))))
+    (draw-polygon outline "blocked")
+    (draw-hatching outline)))
+(defun key-closing (x y) (draw-line (list (- x 14) y) (list (+ x 14) y) "centre"))
+(defun key-centre (x y) (draw-cross (list x y)))
+(defun key-away (x y) (draw-end-on (list x y) nil nil))
+(defun key-toward (x y) (draw-end-on (list x y) t nil))
+
+(defparameter +key+
+  '((key-contact 8 "contact") (key-hidden 8 "contact behind")
+    (key-away 12 "points away") (key-toward 12 "points to you")
+    (key-closing 30 "opposed fingers") (key-blocked 20 "constrained"))
+  "The signs of the key: how each is drawn, how wide it is, what it means.")
+
+(defun key-have (x y) (draw-rectangle (- x 12) (- y 6) 24 12 "have"))
+(defun key-need (x y) (draw-line (list x (- y 8)) (list x (+ y 8)) "need"))
+
+(defparameter +quality-key+
+  '((key-have 26 "what the grasp has, gravity’s load taken off")
+    (key-need 6 "what the task needs at the grasp centre")
+    (list 0 "◀ the axis that limits"))
+  "The key to the bars.")
+
+(defun draw-key (x y width &key (signs +key+))
+  "Draw the key of SIGNS from X Y in lines no wider than WIDTH.  Returns the y of its last line."
+  (let ((left x))
+    (loop for (sign wide text) in signs
+          for more = (+ wide 8 (text-width text "soft") 18)
+          do (when (> (+ left more) (+ x width))
+               (setf left x)
+               (incf y 22))
+             (funcall sign (+ left (/ wide 2)) (- y 4))
+             (draw-text text (list (+ left wide 8) y) :class "soft")
+             (incf left more))
+    y))

@@ -1,0 +1,107 @@
+;;;; quality-picture.lisp -- DRAW-QUALITY: what the best candidates have, and what the task needs.
+
+(in-package :supergrip-draw)
+
+(defparameter +axis-names+ '("along X" "along Y" "along Z" "about X" "about Y" "about Z"))
+
+(defun lever-arms (candidate)
+  (map '(simple-array double-float (3)) #'abs (candidate-offset candidate)))
+
+(defun six-of (function needs candidate)
+  "Return the list that FUNCTION, of needs, arms and a result, makes of NEEDS at the grasp centre."
+  (let ((out (make-array 6 :element-type 'double-float)))
+    (funcall function needs (lever-arms candidate) out)
+    (coerce out 'list)))
+
+(defun force-rows (candidate plan)
+  "Return (have need) on each axis for forces: gravity's load taken off, the offset's effect added."
+  (let ((box (plan-box plan)))
+    (mapcar #'list
+            (mapcar #'- (candidate-wrench candidate plan)
+                    (six-of #'supergrip::put-load (box-weight box) candidate))
+            (six-of #'supergrip::shift-force (supergrip::%box-force box) candidate))))
+
+(defun velocity-rows (candidate plan)
+  "Return (have need) on each axis for velocities: the offset's effect added."
+  (mapcar #'list (candidate-twist candidate plan)
+          (six-of #'supergrip::shift-velocity (supergrip::%box-velocity (plan-box plan))
+                  candidate)))
+
+(defun draw-rows (rows limit x y width)
+  "Draw one row for each axis: a bar for what there is, a thick mark for what is needed, and their
+ratio; LIMIT is the name of the limiting axis.  Returns the y below."
+  (let* ((most (reduce #'max (mapcar #'first rows)))
+         (most (max most (reduce #'max (mapcar #'second rows)) 1d-9))
+         (left (+ x 66)) (room (- width 66 156)))
+    (flet ((x-of (number) (+ left (* room (/ (max 0 number) most)))))
+      (loop for (have need) in rows
+            for name in +axis-names+
+            for top from y by 24
+            for limiting = (equal name limit)
+            do (draw-text name (list x (+ top 14)) :class (if limiting "bold" "plain"))
+               (draw-rectangle left (+ top 3) (max 0.5 (- (x-of have) left)) 13 "have")
+               (when (plusp need)
+                 (draw-line (list (x-of need) top) (list (x-of need) (+ top 19)) "need"))
+               (draw-text (ratio-text have need limiting)
+                          (list (+ left room 10) (+ top 14)) :class (if limiting "bold" "soft"))))
+    (+ y (* 6 24))))
+
+(defun ratio-text (have need limiting)
+  (cond ((zerop need) "not needed")
+        (t (format nil "~a / ~a = ~a~:[~; ◀~]" (decimal have 3)
+                   (decimal need 3) (decimal (/ have need) 3) limiting))))
+
+(defun draw-candidate-quality (candidate plan place x y width)
+  "Draw the bars of CANDIDATE, the PLACEth best."
+  (draw-text (fitting (format nil "~d  ~a" place (candidate-title candidate)) "bold" width)
+             (list x (+ y 16)) :class "bold")
+  (draw-text (fitting (matching-text (candidate-matching candidate)) "soft" width)
+             (list x (+ y 35)) :class "soft")
+  (draw-text (radius-text "Forces, u_w" (candidate-force-radius candidate)
+                          (candidate-force-axis candidate))
+             (list x (+ y 66)))
+  (let ((below (draw-rows (force-rows candidate plan) (candidate-force-axis candidate)
+                          x (+ y 76) width)))
+    (draw-text (radius-text "Velocities, u_t" (candidate-velocity-radius candidate)
+                            (candidate-velocity-axis candidate))
+               (list x (+ below 26)))
+    (draw-rows (velocity-rows candidate plan) (candidate-velocity-axis candidate)
+               x (+ below 36) width)))
+
+(defun radius-text (name radius axis)
+  (if radius
+      (format nil "~a = ~,3f, limited ~a" name radius axis)
+      (format nil "~a: none needed" name)))
+
+(defun quality-words (candidate)
+  (format nil "~a: ~a; ~a." (candidate-title candidate)
+          (radius-text "forces, u_w" (candidate-force-radius candidate)
+                       (candidate-force-axis candidate))
+          (radius-text "velocities, u_t" (candidate-velocity-radius candidate)
+                       (candidate-velocity-axis candidate))))
+
+(defun quality-picture (plan count)
+  "Return the picture of what the COUNT best candidates of PLAN have against what is needed."
+  (let* ((candidates (best-candidates plan count))
+         (wide 380)
+         (width (max 860 (+ 24 (* wide (length candidates))))))
+    (with-picture (width 530
+                   (format nil "Have against need, ~a" (box-text (plan-box plan)))
+                   (format nil "~:[No grasp is possible.~;~:*~{~a~^ ~}~]"
+                           (mapcar #'quality-words candidates)))
+      (draw-heading (if candidates "What each grasp has, against what the task needs"
+                        "No grasp is possible")
+                    (list (format nil "~a. Forces in finger forces, torques in finger force × cm, ~
+                                       gamma ~a." (box-text (plan-box plan))
+                                  (decimal (plan-gamma plan))))
+                    width)
+      (loop for candidate in candidates
+            for place from 1
+            for x from 24 by wide
+            do (draw-candidate-quality candidate plan place x 76 (- wide 30)))
+      (draw-key 24 508 (- width 48) :signs +quality-key+))))
+
+(defun draw-quality (plan file &key (count 3))
+  "Draw, for the COUNT best candidates of PLAN, what they have against what the task needs on all
+twelve axes, the limiting ones marked, into FILE, an SVG picture.  Returns FILE."
+  (save-picture (quality-picture plan count) file))

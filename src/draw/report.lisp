@@ -1,0 +1,465 @@
+;;;; report.lisp -- REPORT: one page about one plan, complete in itself; and an index of pages.
+
+(in-package :supergrip-draw)
+
+(defparameter +page-style+ "
+:root { color-scheme: light dark; --ink: #1a1a1a; --soft: #565656; --paper: #ffffff;
+  --line: #d4d4cf; --wash: #f6f6f4; --link: #0b4f8a }
+@media (prefers-color-scheme: dark) { :root { --ink: #eceff1; --soft: #b4bcc3; --paper: #15181b;
+  --line: #3c4248; --wash: #1d2125; --link: #8cc4f5 } }
+* { box-sizing: border-box }
+body { margin: 0; background: var(--paper); color: var(--ink);
+  font: 16px/1.5 Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif }
+header, main, footer { max-width: 1120px; margin: 0 auto; padding: 0 20px }
+header { padding-top: 28px }
+h1 { font-size: 28px; line-height: 1.2; margin: 0 0 8px; overflow-wrap: anywhere }
+h2 { font-size: 20px; margin: 44px 0 10px; padding-top: 10px; border-top: 1px solid var(--line) }
+h3 { font-size: 16px; margin: 24px 0 6px }
+p, dl, ol, ul, table { margin: 0 0 14px }
+.verdict { font-size: 18px; max-width: 46em }
+.soft { color: var(--soft) }
+a { color: var(--link) }
+figure { margin: 0 }
+figure svg { width: 100%; height: auto; display: block; border: 1px solid var(--line) }
+figcaption { color: var(--soft); font-size: 14px; padding-top: 4px }
+.hand { display: grid; gap: 16px; grid-template-columns: 1fr }
+.row { display: grid; gap: 16px; grid-template-columns: 1fr }
+.pair { display: grid; gap: 8px 48px; grid-template-columns: 1fr; align-items: start }
+.hand, .row { margin-bottom: 14px }
+.hand p { margin: 10px 0 }
+.key { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: 4px 22px;
+  color: var(--soft); font-size: 14px }
+.key svg { vertical-align: middle }
+@media (min-width: 760px), print {
+  .hand { grid-template-columns: 2fr 1fr; grid-template-rows: auto auto auto }
+  .hand .main { grid-row: 1 / span 3 }
+  .pair { grid-template-columns: 1fr 1fr }
+  .row { grid-template-columns: repeat(3, 1fr) } }
+table { border-collapse: collapse; width: 100%; font-size: 15px }
+caption { text-align: left; color: var(--soft); padding-bottom: 6px }
+th, td { text-align: left; vertical-align: top; padding: 6px 10px 6px 0;
+  border-bottom: 1px solid var(--line); overflow-wrap: anywhere }
+td.number { font-variant-numeric: tabular-nums; white-space: nowrap }
+tbody th { font-weight: bold }
+.face { font-weight: normal; color: var(--soft); display: block; font-size: 14px }
+.best td, .best th { background: var(--wash) }
+pre { background: var(--wash); padding: 10px 12px; margin: 0 0 10px; font-size: 13px;
+  line-height: 1.45; white-space: pre-wrap; overflow-wrap: anywhere }
+.facts { padding-left: 1.6em }
+.facts li { margin-bottom: 8px }
+:target { background: var(--wash); outline: 2px solid var(--link) }
+footer { color: var(--soft); font-size: 14px; padding: 32px 20px 40px }
+.cards { display: grid; gap: 20px; grid-template-columns: repeat(auto-fill, minmax(250px, 1fr));
+  list-style: none; padding: 0 }
+.cards a { display: block; color: inherit; text-decoration: none }
+.cards a:hover strong, .cards a:focus strong { text-decoration: underline }
+.cards svg { width: 100%; height: auto; display: block; border: 1px solid var(--line) }
+.cards strong { color: var(--link); overflow-wrap: anywhere }
+@media print { body { font-size: 11pt } header, main, footer { max-width: none; padding: 0 }
+  h2 { break-after: avoid } figure, tr, li, pre { break-inside: avoid }
+  a { color: inherit } }
+" "What pages look like.")
+
+(defmacro say (control &rest arguments)
+  "Write text made by CONTROL and ARGUMENTS into the page, escaped."
+  `(write-string (safe (format nil ,control ,@arguments)) *out*))
+
+(defmacro with-page ((file title) &body body)
+  "Write an HTML page of TITLE, whose header and main parts BODY writes, to FILE.  Returns FILE."
+  `(with-output-to (*out* ,file)
+     (format *out* "<!DOCTYPE html>~%")
+     (markup
+       (:html :lang "en"
+        (:head
+         (:meta :charset "utf-8")
+         (:meta :name "viewport" :content "width=device-width, initial-scale=1")
+         (:title (cl-who:str (safe ,title)))
+         (:style (cl-who:str +page-style+) (cl-who:str +style+)))
+        (:body
+         (:svg :width "0" :height "0" :style "position: absolute" :aria-hidden "true"
+          (format *out* +patterns+))
+         ,@body
+         (:footer (:p "Box and contacts are to scale; fingers and palm are a diagram. Lengths in cm,
+forces in units of one finger’s greatest normal force, torques in their product.")))))
+     (terpri *out*)))
+
+(defun put-figure (picture caption &optional class)
+  "Write PICTURE with its CAPTION."
+  (markup (:figure :class class
+                   (write-picture picture *out* :inline t)
+                   (when caption (markup (:figcaption (say "~a" caption)))))))
+
+;;; Words
+
+(defun list-text (items)
+  "Return ITEMS as \"a\", \"a and b\", or \"a, b and c\"."
+  (format nil "~{~#[~;~a~;~a and ~a~:;~@{~a~#[~; and ~:;, ~]~}~]~}" items))
+
+(defun page-title (plan)
+  (let ((box (plan-box plan)))
+    (format nil "~a, ~{~a~^ × ~} cm" (or (box-name box) "A box")
+            (mapcar #'length-text (box-size box)))))
+
+(defun times-text (kind radius axis)
+  "Return how much a grasp has of KIND, RADIUS times what is needed, AXIS being the limit."
+  (format nil "~a: the grasp has ~,3f times what the task needs on the tightest axis, ~a."
+          kind radius axis))
+
+(defun fingers-words (subject)
+  "Return which fingers are on which face."
+  (let ((contacts (subject-contacts subject)))
+    (list-text
+     (loop for face in (remove-duplicates (mapcar #'contact-face contacts) :from-end t)
+           for numbers = (loop for contact in contacts
+                               when (= face (contact-face contact))
+                                 collect (contact-number contact))
+           collect (format nil "finger~p ~a on ~a" (length numbers) (list-text numbers)
+                           (surface-name face))))))
+
+(defun verdict-words (plan)
+  "Return the verdict of PLAN, a list of sentences."
+  (let ((best (plan-best plan)))
+    (if (null best)
+        (list "It can’t be grasped." (format nil "~a." (string-right-trim "." (plan-reason plan))))
+        (let ((subject (grasp-subject best plan))
+              (next (second (plan-possible plan))))
+          (remove nil
+                  (list (format nil "Hold it with ~a: ~a, the palm over ~a."
+                                (candidate-grasp best) (fingers-words subject)
+                                (surface-name (subject-palm subject)))
+                        (format nil "The quality index is ~,3f~@[; the next best, ~a~]."
+                                (candidate-quality best)
+                                (and next (format nil "~a, has ~,3f" (candidate-grasp next)
+                                                  (candidate-quality next))))
+                        (and (candidate-force-axis best)
+                             (times-text "Forces" (candidate-force-radius best)
+                                         (candidate-force-axis best)))
+                        (and (candidate-velocity-axis best)
+                             (times-text "Velocities" (candidate-velocity-radius best)
+                                         (candidate-velocity-axis best)))))))))
+
+;;; The box
+
+(defun put-given (box gamma)
+  "Write the table of what is known of BOX."
+  (markup
+    (:table
+     (:caption "What was given")
+     (:tbody
+      (loop for (name value) in
+            `(("Size along X, Y, Z" ,(format nil "~{~a × ~a × ~a~} cm"
+                                             (mapcar #'length-text (box-size box))))
+              ("Weight" ,(format nil "~a finger forces" (decimal (box-weight box) 4)))
+              ("Friction u" ,(decimal (box-friction box) 4))
+              ("Soft finger v" ,(format nil "~a cm" (decimal (box-soft-friction box) 4)))
+              ("Constrained faces" ,(if (box-constrained box)
+                                        (list-text (box-constrained box))
+                                        "none"))
+              ("Selection parameter γ" ,(decimal gamma 3)))
+            do (markup (:tr (:th :scope "row" (say "~a" name)) (:td (say "~a" value)))))))))
+
+(defun put-needs (box)
+  "Write the table of what the task of BOX needs."
+  (markup
+    (:table
+     (:caption "What the task needs, from 0 to 1")
+     (:thead (:tr (:th :scope "col" "Axis") (:th :scope "col" "Force or torque")
+                  (:th :scope "col" "Velocity or rotation")))
+     (:tbody
+      (loop for axis in +axis-names+
+            for force in (box-force-needed box)
+            for velocity in (box-velocity-needed box)
+            do (markup (:tr (:th :scope "row" (say "~a" axis))
+                            (:td (say "~a" (decimal force 3)))
+                            (:td (say "~a" (decimal velocity 3))))))))))
+
+;;; Pictures that fit a telephone
+
+(defun put-key (signs)
+  "Write what SIGNS mean (see +KEY+)."
+  (markup
+    (:ul :class "key"
+         (loop for (sign wide text) in signs
+               do (markup
+                    (:li (when (plusp wide)
+                           (format *out* "<svg class=\"sg\" width=\"~d\" height=\"20\" ~
+                                          aria-hidden=\"true\">" (+ wide 6))
+                           (let ((*obstacles* '()) (*strokes* '()))
+                             (funcall sign (+ 3 (/ wide 2)) 10))
+                           (format *out* "</svg> "))
+                         (say "~a" text)))))))
+
+(defun main-picture (subject title description)
+  (with-picture (440 370 title description)
+    (draw-main-view subject '(6 6 428 358))))
+
+(defun flat-picture (subject index)
+  "Return SUBJECT seen from one of the three sides."
+  (destructuring-bind (azimuth elevation caption names) (nth index +flat-views+)
+    (let ((camera (flat-camera azimuth elevation)) (area '(2 2 296 196)))
+      (with-picture (300 200 (format nil "Seen ~a" caption)
+                             (if (subject-palm subject) (fingers-text subject) "The box alone."))
+        (draw-text caption '(10 20) :class "soft")
+        (draw-axes camera '(20 176) names 20)
+        (occupy '(2 140 56 58))
+        (draw-subject subject (fit-view camera (subject-vectors subject) '(64 30 216 150))
+                      :small t)
+        (place-labels area)))))
+
+(defun put-hand (plan)
+  "Write the pictures of the best grasp of PLAN, or of the box alone."
+  (let* ((best (plan-best plan)) (load (weight-text (plan-box plan)))
+         (subject (if best
+                      (grasp-subject best plan :load load)
+                      (box-subject (plan-box plan) :load load))))
+    (markup
+      (:div :class "hand"
+            (:div :class "main"
+                  (put-figure (main-picture subject (page-title plan)
+                                            (if best
+                                                (candidate-description best plan subject)
+                                                (constrained-text (plan-box plan))))
+                              nil)
+                  (when best (markup (:p :class "soft" (say "~a" (fingers-text subject)))))
+                  (put-key +key+))
+            (dotimes (i 3) (put-figure (flat-picture subject i) nil))))))
+
+(defun put-best (plan)
+  "Write the pictures of the three best grasps of PLAN, and of what they have against what is
+needed."
+  (let* ((candidates (best-candidates plan 3))
+         (subjects (loop for candidate in candidates collect (grasp-subject candidate plan)))
+         (camera (best-camera subjects)))
+    (markup
+      (:h3 "How they hold it")
+      (:div :class "row"
+            (loop for candidate in candidates
+                  for subject in subjects
+                  for place from 1
+                  do (put-figure
+                      (with-picture (366 372 (candidate-title candidate)
+                                             (candidate-description candidate plan subject))
+                        (draw-session-cell candidate subject place camera 0 4 366 364))
+                      nil)))
+      (:h3 "What they have, against what the task needs")
+      (:div :class "row"
+            (loop for candidate in candidates
+                  for place from 1
+                  do (put-figure
+                      (with-picture (374 410 (candidate-title candidate) (quality-words candidate))
+                        (draw-candidate-quality candidate plan place 12 12 350))
+                      nil)))
+      (put-key +quality-key+))))
+
+;;; Candidates
+
+(defun candidate-words (candidate plan)
+  "Return what became of CANDIDATE."
+  (multiple-value-bind (step sentence) (candidate-failure candidate plan)
+    (if step
+        (format nil "~(~a~): ~a" step sentence)
+        (format nil "~@[forces ~a~]~:[~;, ~]~@[velocities ~a~]"
+                (radius-words (candidate-force-radius candidate) (candidate-force-axis candidate))
+                (and (candidate-force-radius candidate) (candidate-velocity-radius candidate))
+                (radius-words (candidate-velocity-radius candidate)
+                              (candidate-velocity-axis candidate))))))
+
+(defun radius-words (radius axis)
+  (and radius (format nil "~,3f, limited ~a" radius axis)))
+
+(defun put-candidates (plan)
+  "Write the table of all candidates of PLAN, the possible ones first, the best on top."
+  (markup
+    (:table
+     (:caption (say "~d tried, ~d possible. A candidate is a grasp in one matching; faces in the ~
+                     order N1 N2 O1 O2 A1 A2." (length (plan-candidates plan))
+                    (length (plan-possible plan))))
+     (:thead (:tr (:th :scope "col" "Grasp and matching") (:th :scope "col" "Q")
+                  (:th :scope "col" "Radii and limits, or the step failed and why")))
+     (:tbody
+      (dolist (candidate (append (plan-possible plan) (plan-rejected plan)))
+        (markup
+          (:tr :class (and (eq candidate (plan-best plan)) "best")
+               (:th :scope "row" (say "~a" (candidate-grasp candidate))
+                    (:span :class "face" (say "~{~a~^ ~}" (candidate-matching candidate))))
+               (:td :class "number"
+                    (say "~:[not possible~;~:*~,3f~]" (candidate-quality candidate)))
+               (:td (say "~a" (candidate-words candidate plan))))))))))
+
+;;; Facts and rules
+
+(defun rulebase-of (plan) (supergrip::knowledge-rulebase (plan-knowledge plan)))
+
+(defun fact-id (predicate packed)
+  "Return the id of a fact in the page."
+  (format nil "fact-~d-~d" (supergrip-chainer:predicate-index predicate)
+          (supergrip-chainer:pack-mask packed)))
+
+(defun fact-text (predicate packed)
+  (format nil "~a~@[ (~{~a~^ ~})~]" (supergrip-chainer:predicate-text predicate)
+          (supergrip-chainer:pack-names packed)))
+
+(defun rule-id (rule)
+  (format nil "rule-~d" (supergrip-chainer:rule-index rule)))
+
+(defun remembered-facts (plan)
+  "Return the facts that rules of PLAN remembered, in order: lists of event, predicate and faces."
+  (loop for event in (plan-log plan)
+        when (integerp event)
+          collect (cons event (multiple-value-list
+                               (supergrip-chainer:event-fact event (rulebase-of plan))))))
+
+(defun given-facts (plan)
+  "Return the facts that were there before any rule of PLAN ran: lists of predicate and faces."
+  (let ((made (mapcar (lambda (fact) (apply #'fact-id (rest fact))) (remembered-facts plan))))
+    (loop for predicate across (supergrip-chainer:rulebase-predicates (rulebase-of plan))
+          append (loop for packed in (supergrip-chainer:facts (supergrip::plan-memory plan)
+                                                              predicate)
+                       unless (member (fact-id predicate packed) made :test #'string=)
+                         collect (list predicate packed)))))
+
+(defun put-antecedents (event plan)
+  "Write, for EVENT, what made its rule fire, each fact a link to where it comes from."
+  (let ((rule (supergrip-chainer:event-rule event (rulebase-of plan)))
+        (binding (supergrip-chainer:event-binding event)))
+    (loop for clause in (supergrip-chainer:rule-clauses rule)
+          for first = t then nil
+          for predicate = (supergrip-chainer:clause-predicate clause)
+          for packed = (supergrip-chainer:instantiate (supergrip-chainer:clause-terms clause)
+                                                      binding)
+          do (say "~:[, ~;~]" first)
+             (if (supergrip-chainer:clause-negated clause)
+                 (say "not ~a" (fact-text predicate packed))
+                 (markup (:a :href (format nil "#~a" (fact-id predicate packed))
+                             (say "~a" (fact-text predicate packed))))))))
+
+(defun put-facts (plan)
+  "Write what was known at first, and what each rule added, with its reasons."
+  (markup
+    (:h3 "Known before any rule ran")
+    (:ul :class "facts"
+         (loop for (predicate packed) in (given-facts plan)
+               do (markup (:li :id (fact-id predicate packed)
+                               (say "~a" (fact-text predicate packed))))))
+    (:h3 "What the rules added, in order")
+    (if (remembered-facts plan)
+        (markup
+          (:ol :class "facts"
+               (loop for (event predicate packed) in (remembered-facts plan)
+                     for rule = (supergrip-chainer:event-rule event (rulebase-of plan))
+                     do (markup (:li :id (fact-id predicate packed)
+                                     (:strong (say "~a" (fact-text predicate packed)))
+                                     (:br)
+                                     "by "
+                                     (:a :href (format nil "#~a" (rule-id rule))
+                                         (say "~a" (supergrip-chainer:rule-name rule)))
+                                     ", since "
+                                     (put-antecedents event plan))))))
+        (markup (:p "Nothing.")))
+    (put-stop plan)))
+
+(defun put-stop (plan)
+  "Write which rule ended the run."
+  (let ((stop (supergrip::plan-stop plan)))
+    (when stop
+      (let ((rule (supergrip-chainer:stop-rule stop)))
+        (markup (:p "The run was ended by "
+                    (:a :href (format nil "#~a" (rule-id rule))
+                        (say "~a" (supergrip-chainer:rule-name rule)))
+                    (say ": ~:[the best was kept~;~:*CANT ~{~a~^ ~}~]."
+                         (supergrip-chainer:stop-words stop))))))))
+
+(defun rule-lines (rule)
+  "Return the text of RULE, a clause or an action a line."
+  (destructuring-bind (name conditions actions) (rest (supergrip-chainer:rule-form rule))
+    (flet ((text (form) (supergrip-data:form-text form)))
+      (format nil "(RULE ~a~%  (IF ~{~a~^~%      ~})~%  (THEN ~{~a~^~%        ~}))" (text name)
+              (mapcar #'text (rest conditions)) (mapcar #'text (rest actions))))))
+
+(defun put-rules (plan)
+  "Write the rules, each as it stands in its file."
+  (loop for rule in (knowledge-rules (plan-knowledge plan))
+        do (markup (:pre :id (rule-id rule) (say "~a" (rule-lines rule))))))
+
+;;; The page
+
+(defun report (plan file)
+  "Write a page about PLAN to FILE, HTML complete in itself: the box, the verdict in words,
+pictures, all candidates with the reasons of those that failed, and what the rules found, each fact linked to
+the rule and to the facts that made it.  Needs no network and no script.  Returns FILE."
+  (with-page (file (format nil "SUPER-GRIP: ~a" (page-title plan)))
+    (:header
+     (:h1 (say "~a" (page-title plan)))
+     (:p :class "verdict" (say "~{~a~^ ~}" (verdict-words plan))))
+    (:main
+     (:h2 (say "~:[The box~;The grasp~]" (plan-best plan)))
+     (put-hand plan)
+     (:h2 "Box and task")
+     (:div :class "pair"
+           (put-given (plan-box plan) (plan-gamma plan))
+           (put-needs (plan-box plan)))
+     (when (plan-possible plan)
+       (markup (:h2 "The best few")
+               (put-best plan)))
+     (:h2 "All candidates")
+     (if (plan-candidates plan)
+         (put-candidates plan)
+         (markup (:p "No grasp was tried.")))
+     (:h2 "Facts")
+     (put-facts plan)
+     (:h2 "Rules")
+     (put-rules plan))))
+
+;;; The index
+
+(defun slug (plan number)
+  "Return the name of the file of PLAN, the NUMBERth, without folder."
+  (let* ((name (or (box-name (plan-box plan)) "box"))
+         (letters (map 'string (lambda (char)
+                                 (if (and (< (char-code char) 128) (alphanumericp char))
+                                     (char-downcase char)
+                                     #\-))
+                       (subseq name 0 (min 40 (length name))))))
+    (format nil "~4,'0d-~a.html" number letters)))
+
+(defun thumbnail (plan)
+  "Return a small picture of PLAN without words."
+  (let* ((best (plan-best plan))
+         (subject (if best (grasp-subject best plan) (box-subject (plan-box plan))))
+         (camera (best-camera (list subject))))
+    (with-picture (260 200 (page-title plan)
+                           (if best
+                               (candidate-description best plan subject)
+                               (plan-reason plan)))
+      (draw-subject subject (fit-view camera (subject-vectors subject) '(14 14 232 172))
+                    :small t)
+      (place-labels '(2 2 256 196)))))
+
+(defun put-card (plan number)
+  (markup
+    (:li (:a :href (slug plan number)
+             (write-picture (thumbnail plan) *out* :inline t)
+             (:strong (say "~a" (page-title plan)))
+             (:br)
+             (say "~:[can’t be grasped~;~:*~a, Q = ~,3f~]" (plan-grasp plan)
+                  (plan-quality plan))))))
+
+(defun report-index (plans directory &key (pages t))
+  "Write index.html into DIRECTORY: a thumbnail and the verdict of each of PLANS, in their order,
+each linked to its page; and, unless PAGES is NIL, these pages, too.  Returns the index's name."
+  (let ((directory (uiop:ensure-directory-pathname directory)))
+    (when pages
+      (loop for plan in plans
+            for number from 1
+            do (report plan (merge-pathnames (slug plan number) directory))))
+    (with-page ((merge-pathnames "index.html" directory) "SUPER-GRIP: all boxes")
+      (:header
+       (:h1 "All boxes")
+       (:p :class "verdict"
+           (say "~d box~:*~[es~;~:;es~], ~d can be grasped." (length plans)
+                (count :grasp plans :key #'plan-verdict))))
+      (:main
+       (:ul :class "cards"
+            (loop for plan in plans
+                  for number from 1
+                  do (put-card plan number)))))))

@@ -1,0 +1,259 @@
+;;;; svg.lisp -- pictures: a small layer of SVG over cl-who.
+;;;;
+;;;; A picture is made once, and then written alone or into a page.  What it looks like is in
+;;;; +STYLE+ alone; light and dark are chosen by the reader's device.  Meaning is carried by form,
+;;;; hatching and words, never by colour alone.
+
+(in-package :supergrip-draw)
+
+(defstruct picture
+  "A drawing of WIDTH x HEIGHT units.  TITLE and DESCRIPTION are for those who can't see it; BODY is
+the mark-up of what it shows."
+  width height title description (body "" :type string))
+
+(defvar *out* nil "The stream to which the mark-up of the picture being drawn goes.")
+
+(defparameter +style+ "
+.sg { font-family: Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif; font-size: 13px }
+.sg text { fill: #1a1a1a }
+.sg .heading { font-size: 20px; font-weight: bold }
+.sg .bold { font-weight: bold }
+.sg .soft { fill: #565656 }
+.sg .paper { fill: #ffffff }
+.sg .pad { fill: #ffffff; fill-opacity: 0.85 }
+.sg .face { fill: #f3f3f1; fill-opacity: 0.5; stroke: none }
+.sg .blocked { fill: #cfcfcb; fill-opacity: 0.8; stroke: none }
+.sg .plate { fill: #dededa; stroke: #6a6a6a; stroke-width: 0.7 }
+.hatch { stroke: #6a6a6a; stroke-width: 1 }
+.sg .edge, .sg .finger, .sg .core { fill: none; stroke-linecap: round; stroke-linejoin: round }
+.sg .edge { stroke: #1a1a1a; stroke-width: 1.6 }
+.sg .hidden { fill: none; stroke: #6a6a6a; stroke-width: 1; stroke-dasharray: 5 4 }
+.sg .thin { fill: none; stroke: #565656; stroke-width: 1 }
+.sg .centre { fill: none; stroke: #565656; stroke-width: 1; stroke-dasharray: 12 3 2 3 }
+.sg .frame { fill: none; stroke: #b9b9b4; stroke-width: 1 }
+.sg .finger { stroke: #0b4f8a; stroke-width: 7 }
+.sg .core { stroke: #d9e8f6; stroke-width: 3.6 }
+.sg .behind { fill: none; stroke: #0b4f8a; stroke-width: 2; stroke-dasharray: 6 4 }
+.sg .palm { fill: #d9e8f6; fill-opacity: 0.72; stroke: #0b4f8a; stroke-width: 1.6 }
+.sg .approach { fill: #ffffff; stroke: #0b4f8a; stroke-width: 1.6; stroke-linejoin: round }
+.sg .tip { fill: #0b4f8a; stroke: #ffffff; stroke-width: 1 }
+.sg .tip-hidden { fill: #ffffff; stroke: #0b4f8a; stroke-width: 1.6 }
+.sg .contact { fill: #1a1a1a; stroke: #ffffff; stroke-width: 1 }
+.sg .contact-hidden { fill: #ffffff; stroke: #1a1a1a; stroke-width: 1.4 }
+.sg .force { fill: none; stroke: #9c3500; stroke-width: 2 }
+.sg .force-tip { fill: #9c3500; stroke: none }
+.sg .have { fill: #d9e8f6; stroke: #0b4f8a; stroke-width: 1.2 }
+.sg .need { fill: none; stroke: #9c3500; stroke-width: 3 }
+.sg .block { fill: #f3f3f1; stroke: #1a1a1a; stroke-width: 1.4 }
+@media (prefers-color-scheme: dark) {
+.sg text { fill: #eceff1 }
+.sg .soft { fill: #b4bcc3 }
+.sg .paper, .sg .approach, .sg .tip-hidden, .sg .contact-hidden { fill: #15181b }
+.sg .pad { fill: #15181b }
+.sg .face { fill: #23282d }
+.sg .block { fill: #23282d; stroke: #eceff1 }
+.sg .blocked { fill: #3c4248 }
+.sg .plate { fill: #33383d; stroke: #98a1a8 }
+.hatch { stroke: #98a1a8 }
+.sg .edge { stroke: #eceff1 }
+.sg .hidden { stroke: #98a1a8 }
+.sg .thin, .sg .centre { stroke: #b4bcc3 }
+.sg .frame { stroke: #4a5157 }
+.sg .finger, .sg .palm, .sg .behind, .sg .approach, .sg .tip-hidden, .sg .have { stroke: #8cc4f5 }
+.sg .core { stroke: #163a59 }
+.sg .palm, .sg .have { fill: #163a59 }
+.sg .tip { fill: #8cc4f5; stroke: #15181b }
+.sg .contact { fill: #eceff1; stroke: #15181b }
+.sg .contact-hidden { stroke: #eceff1 }
+.sg .force, .sg .need { stroke: #ffae73 }
+.sg .force-tip { fill: #ffae73 }
+}
+" "What pictures look like.")
+
+(defparameter +patterns+
+  "<defs><pattern id=\"hatch\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" ~
+   patternTransform=\"rotate(45)\"><line class=\"hatch\" x1=\"0\" y1=\"0\" x2=\"0\" ~
+   y2=\"7\"/></pattern></defs>"
+  "The hatching of constrained faces, a format control.")
+
+;;; Values
+
+(defun clean (text)
+  "Return TEXT with the characters that XML does not allow replaced by U+FFFD."
+  (substitute-if-not #\Replacement_character
+                     (lambda (char)
+                       (let ((code (char-code char)))
+                         (or (member code '(9 10 13)) (<= 32 code 126) (<= 160 code #xd7ff)
+                             (<= #xe000 code #xfffd) (<= #x10000 code #x10ffff))))
+                     text))
+
+(defun safe (text)
+  "Return TEXT, of whatever origin, escaped for mark-up."
+  (cl-who:escape-string (clean text)))
+
+(defun px (number)
+  "Return NUMBER as the text of a coordinate, rounded to 1/100."
+  (multiple-value-bind (whole part) (truncate (round (* 100 number)) 100)
+    (format nil "~:[~;-~]~d~[~:;.~:*~2,'0d~]" (or (minusp whole) (minusp part)) (abs whole)
+            (abs part))))
+
+(defun points-text (points)
+  (format nil "~{~a~^ ~}" (loop for (x y) in points collect (format nil "~a,~a" (px x) (px y)))))
+
+(defun decimal (number &optional (digits 2))
+  "Return NUMBER for a reader: DIGITS decimals at most, and a true minus sign."
+  (let* ((text (format nil "~,vf" digits (abs number)))
+         (short (if (find #\. text) (string-right-trim "." (string-right-trim "0" text)) text))
+         (short (cond ((string= short "") "0")
+                      ((char= (char short 0) #\.) (concatenate 'string "0" short))
+                      (t short))))
+    (if (and (minusp number) (string/= short "0"))
+        (format nil "~c~a" (code-char #x2212) short)
+        short)))
+
+(defun length-text (number)
+  "Return NUMBER, a length in cm, for a reader: three significant digits."
+  (decimal number (cond ((zerop number) 0)
+                        ((< (abs number) 0.095d0) 3)
+                        ((< (abs number) 100) 2)
+                        (t 0))))
+
+;;; Elements
+
+(defmacro markup (&body body)
+  "Write BODY, cl-who's notation, to *OUT*."
+  `(cl-who:with-html-output (*out*) ,@body))
+
+(defun draw-line (a b class)
+  "Draw a line from the point A to B."
+  (markup (:line :class class :x1 (px (first a)) :y1 (px (second a))
+                 :x2 (px (first b)) :y2 (px (second b)))))
+
+(defun draw-path (points class)
+  "Draw an open line through POINTS."
+  (markup (:polyline :class class :points (points-text points))))
+
+(defun draw-polygon (points class &key fill)
+  "Draw a closed outline; FILL, if given, takes the place of its fill."
+  (markup (:polygon :class class :points (points-text points)
+                    :style (and fill (format nil "fill: ~a; fill-opacity: 1" fill)))))
+
+(defun draw-hatching (points)
+  "Hatch the outline of POINTS."
+  (markup (:polygon :points (points-text points) :fill "url(#hatch)")))
+
+(defun draw-circle (centre radius class &key title)
+  "Draw a circle, with a TITLE for those who point at it or can't see it."
+  (markup (:circle :class class :cx (px (first centre)) :cy (px (second centre)) :r (px radius)
+                   (when title (markup (:title (cl-who:str (safe title))))))))
+
+(defun draw-rectangle (x y width height class)
+  "Draw a rectangle whose upper left corner is X Y."
+  (markup (:rect :class class :x (px x) :y (px y) :width (px width) :height (px height))))
+
+(defmacro with-group ((&key class title description) &body body)
+  "Draw BODY as a group with a TITLE and a DESCRIPTION for those who can't see it."
+  `(markup (:g :class ,class
+               ,@(and title `((markup (:title (cl-who:str (safe ,title))))))
+               ,@(and description `((markup (:desc (cl-who:str (safe ,description))))))
+               ,@body)))
+
+;;; Text.  Its width is reckoned, on the wide side, since no font is at hand.
+
+(defun character-width (char)
+  "Return the width of CHAR as a part of the font's size, as in a wide sans-serif."
+  (cond ((find char "ijl.,:;'|!()[] ") 0.40)
+        ((find char "frtI-/") 0.45)
+        ((find char "mwMW%@") 0.98)
+        ((upper-case-p char) 0.72)
+        ((< (char-code char) 127) 0.65)
+        ((< (char-code char) #x2000) 0.75)
+        (t 1.05)))
+
+(defun class-size (class)
+  "Return the font's size of the CLASS of a text."
+  (if (search "heading" class) 20 13))
+
+(defun text-width (text class)
+  "Return the width of TEXT, reckoned on the wide side."
+  (* (class-size class) (if (or (search "bold" class) (search "heading" class)) 1.08 1)
+     (reduce #'+ (map 'list #'character-width text))))
+
+(defun fitting (text class width)
+  "Return TEXT, cut if it is wider than WIDTH."
+  (if (<= (text-width text class) width)
+      text
+      (loop for end from (length text) downto 0
+            for cut = (format nil "~a…" (string-right-trim " " (subseq text 0 end)))
+            when (<= (text-width cut class) width) return cut
+            finally (return "…"))))
+
+(defun filled (text class width)
+  "Return the list of the lines of TEXT, none wider than WIDTH if its words allow it."
+  (let ((lines '()) (line nil))
+    (dolist (word (uiop:split-string (substitute #\Space #\Newline text) :separator " "))
+      (let ((longer (if line (format nil "~a ~a" line word) word)))
+        (cond ((and line (> (text-width longer class) width))
+               (push line lines)
+               (setf line word))
+              (t (setf line longer)))))
+    (mapcar (lambda (line) (fitting line class width))
+            (reverse (if line (cons line lines) lines)))))
+
+(defun text-box (text point class anchor)
+  "Return the rectangle that TEXT takes, whose baseline is at POINT."
+  (let ((width (text-width text class)) (size (class-size class)))
+    (list (- (first point) (ecase anchor (:start 0) (:middle (/ width 2)) (:end width)))
+          (- (second point) (* 0.95 size)) width (* 1.25 size))))
+
+(defun draw-text (text point &key (class "plain") (anchor :start))
+  "Write TEXT at POINT, the start, middle or end of its baseline, and keep its place clear."
+  (occupy (text-box text point class anchor))
+  (markup (:text :class class :x (px (first point)) :y (px (second point))
+                 :text-anchor (unless (eq anchor :start) (string-downcase anchor))
+                 (cl-who:str (safe text)))))
+
+;;; Pictures
+
+(defmacro with-picture ((width height title description) &body body)
+  "Return the picture of WIDTH x HEIGHT that BODY draws."
+  `(let ((*obstacles* '()) (*strokes* '()) (*labels* '()))
+     (make-picture :width ,width :height ,height :title ,title :description ,description
+                   :body (with-output-to-string (*out*) ,@body))))
+
+(defvar *pictures-written* 0 "How many pictures are in the page so far: their ids differ by it.")
+
+(defun write-picture (picture stream &key inline)
+  "Write PICTURE to STREAM as an SVG 1.1 document, or, if INLINE, as part of an HTML page that has
+the style and the patterns."
+  (let ((id (format nil "p~d" (incf *pictures-written*)))
+        (width (px (picture-width picture))) (height (px (picture-height picture))))
+    (unless inline
+      (format stream "<?xml version=\"1.0\" encoding=\"UTF-8\"?>~%"))
+    (format stream "<svg class=\"sg\" xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" ~
+                    width=\"~a\" height=\"~a\" viewBox=\"0 0 ~a ~a\"~
+                    ~@[ role=\"img\" aria-labelledby=\"~a-title ~:*~a-desc\"~]>~%"
+            width height width height (and inline id))
+    (format stream "<title id=\"~a-title\">~a</title>~%<desc id=\"~a-desc\">~a</desc>~%"
+            id (safe (picture-title picture)) id (safe (picture-description picture)))
+    (unless inline
+      (format stream "<style type=\"text/css\">~a</style>~%" +style+)
+      (format stream +patterns+))
+    (format stream "<rect class=\"paper\" width=\"~a\" height=\"~a\"/>~%~a~%</svg>~%"
+            width height (picture-body picture))))
+
+(defmacro with-output-to ((stream file) &body body)
+  "Run BODY with STREAM bound to FILE, opened for UTF-8 text, and return FILE."
+  (let ((name (gensym "FILE")))
+    `(let ((,name ,file))
+       (ensure-directories-exist ,name)
+       (with-open-file (,stream ,name :direction :output :if-exists :supersede
+                                      :external-format :utf-8)
+         (let ((*pictures-written* 0) (*print-pretty* nil))
+           ,@body))
+       ,name)))
+
+(defun save-picture (picture file)
+  "Write PICTURE to FILE, an SVG document, and return FILE."
+  (with-output-to (stream file)
+    (write-picture picture stream)))
