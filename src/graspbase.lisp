@@ -135,7 +135,7 @@ wrong."
       (unless (assoc key entries :test #'string=)
         (complain form "~a is missing" key)))))
 
-(defun parse-used (value form)
+(defun parse-used (value)
   (let ((slots (and (consp value) (mapcar #'slot-index value))))
     (cond ((or (null slots) (member nil slots))
            (complain value "~a: USED-SURFACES are some of N1 N2 O1 O2 A1 A2" (form-text value)))
@@ -212,7 +212,7 @@ wrong."
            (given (key) (assoc key entries :test #'string=)))
       (macrolet ((part (key form)
                    `(and (given ,key) (let ((*place* ,key)) ,form))))
-        (let* ((used (part "USED-SURFACES" (parse-used (value "USED-SURFACES") form)))
+        (let* ((used (part "USED-SURFACES" (parse-used (value "USED-SURFACES"))))
                (palm (and used (let ((*place* "PALM")) (parse-palm (given "PALM") used form))))
                (contacts (and used palm
                               (let ((*place* "CONTACTS"))
