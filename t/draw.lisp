@@ -36,7 +36,7 @@
                     (let ((*package* (find-package :supergrip-user)) (*read-eval* nil))
                       (loop for form = (ignore-errors (read in nil))
                             while form
-                            when (and (consp form) (eq (first form) 'setq))
+                            when (and (consp form) (symbolp (first form)) (string= (first form) "SETQ"))
                               return (second (third form)))))
         when box collect (cons (pathname-name file) box)))
 
