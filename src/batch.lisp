@@ -8,7 +8,8 @@
 (defstruct (batch (:constructor make-batch (knowledge gamma notation format output)))
   "What records are made with, and how many were.  NOTATION is :LISP, :JSON or NIL, to tell from
 the input; FORMAT is :TRACE, :LISP, :JSON or NIL, as the input.  BAD counts the error records;
-BROKEN is true if one of them was our fault."
+BROKEN is true if one of them was our fault.  PLANS holds the plans for a report, the latest first,
+if KEEP is true."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
   notation format
@@ -16,6 +17,7 @@ BROKEN is true if one of them was our fault."
   (done 0 :type fixnum)
   (bad 0 :type fixnum)
   (broken nil)
+  (keep nil) (plans '() :type list)
   (after-record nil :type (or null function)))
 
 (defun run-batch (batch descriptor)
@@ -166,6 +168,8 @@ and whether they are ours."
   (handler-case
       (let ((plan (plan (canonical-box (unwrap-box description) nil line)
                         :knowledge (batch-knowledge batch) :gamma (batch-gamma batch))))
+        (when (batch-keep batch)
+          (push plan (batch-plans batch)))
         (if (eq (batch-format batch) :trace)
             (with-output-to-string (out) (write-transcript plan out))
             (plan-record plan :line line)))

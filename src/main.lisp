@@ -17,6 +17,8 @@ record a box to standard output, in the same order: the best of seven grasps for
   --rules FILE              rules to use instead of those that are built in
   --grasps FILE             grasps and gripper to use instead of those that are built in
   --gamma X                 from 0, forces alone, to 1, velocities alone; 0.5 by default
+  --report DIR              also write a page for each box into DIR, and an index with thumbnails;
+                            needs the pictures (README, Pictures), and keeps all plans till the end
   --check                   only read the rules and grasps, and say what is wrong with them
   --depth-limit N           how deep lists may nest; 32 by default, 1000 at most
   --record-limit N          the most characters of one box; 65536 by default, 1000000 at most
@@ -58,6 +60,7 @@ Examples:
     ("--record-limit" :record-limit :count 1000000)
     ("--number-limit" :number-limit :count 1000)
     ("--name-limit" :name-limit :count 1000)
+    ("--report" :report :file)
     ("--check" :check)
     ("--help" :help)
     ("--version" :version))
@@ -197,8 +200,9 @@ Signals a KNOWLEDGE-ERROR, or a SYSTEM-FAILURE if one can't be opened."
       (tell "supergrip: ~a: ~a" file condition)
       66)))
 
-(defun run-files (batch files)
-  "Answer the boxes of FILES, by default of standard input, and return the exit status."
+(defun run-files (batch files &optional directory)
+  "Answer the boxes of FILES, by default of standard input, write the report into DIRECTORY if that is
+given, and return the exit status."
   (let ((statuses '()))
     (handler-case
         (loop for file in (or files '("-"))
@@ -209,6 +213,8 @@ Signals a KNOWLEDGE-ERROR, or a SYSTEM-FAILURE if one can't be opened."
           (tell "supergrip: standard output: ~a; ~d records are complete at most" condition
                 (batch-done batch))
           (push 74 statuses))))
+    (when directory
+      (push (write-report batch directory) statuses))
     (when (plusp (batch-bad batch)) (push 65 statuses))
     (when (batch-broken batch) (push 70 statuses))
     (report-end batch)
@@ -218,6 +224,27 @@ Signals a KNOWLEDGE-ERROR, or a SYSTEM-FAILURE if one can't be opened."
           ((find 66 statuses))
           ((find 65 statuses))
           (t 0))))
+
+(defvar *report-index* nil
+  "The function that writes the pages and the index of a list of plans into a directory, a string,
+or NIL: where the pictures are loaded, they set it.")
+
+(defun reporter ()
+  "Return *REPORT-INDEX*, loading the pictures first if they are not there; they end the process,
+with a message, if they can't be loaded."
+  (or *report-index*
+      (progn (load (asdf:system-relative-pathname "supergrip" "src/draw/boot.lisp"))
+             *report-index*)))
+
+(defun write-report (batch directory)
+  "Write the report of what BATCH has kept into DIRECTORY.  Return NIL, or 74 after a report."
+  (let ((directory (uiop:parse-native-namestring directory :ensure-directory t)))
+    (handler-case (progn (ensure-directories-exist directory)
+                         (funcall (reporter) (reverse (batch-plans batch)) directory)
+                         nil)
+      ((or file-error stream-error) (condition)
+        (tell "supergrip: ~a: ~a" (uiop:native-namestring directory) condition)
+        74))))
 
 (defun report-end (batch)
   "Say on standard error what is not as it should be."
@@ -256,7 +283,10 @@ Signals a KNOWLEDGE-ERROR, or a SYSTEM-FAILURE if one can't be opened."
                  (*name-limit* (getf options :name-limit *name-limit*)))
              (when (terminal-p 2)
                (setf (batch-after-record batch) (follow-progress batch)))
-             (run-files batch files))))))
+             (when (getf options :report)
+               (reporter)
+               (setf (batch-keep batch) t))
+             (run-files batch files (getf options :report)))))))
 
 (defun main (arguments)
   "Do what ARGUMENTS, a list of strings, say, and return the exit status.  See --help."

@@ -209,3 +209,20 @@
   (do-external-symbols (name :supergrip-draw)
     (is (fboundp name))
     (is (documentation name 'function))))
+
+;;; The batch
+
+(test the-batch-writes-a-page-a-box
+  (with-folder (folder)
+    (multiple-value-bind (output errors status)
+        (uiop:run-program (list "sbcl" "--script"
+                                (uiop:native-namestring (own-file "examples/batch.lisp"))
+                                "--report" (uiop:native-namestring (in-folder folder "pages")))
+                          :input (make-string-input-stream
+                                  (let ((*package* (find-package :supergrip-user)))
+                                    (format nil "~{~s~%~}"
+                                            (mapcar #'cdr (subseq (example-boxes) 0 3)))))
+                          :output :string :error-output :string :ignore-error-status t)
+      (is (eql 0 status) "~a" errors)
+      (is (= 3 (count #\Newline output)))
+      (is (= 4 (length (uiop:directory-files (in-folder folder "pages/") "*.html")))))))

@@ -463,3 +463,7 @@ each linked to its page; and, unless PAGES is NIL, these pages, too.  Returns th
             (loop for plan in plans
                   for number from 1
                   do (put-card plan number)))))))
+
+;;; The batch finds it here.
+
+(setf supergrip::*report-index* #'report-index)
