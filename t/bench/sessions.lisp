@@ -35,7 +35,7 @@
   (supergrip-chainer:build-rulebase (mapcar #'without-try forms) supergrip::+inputs+))
 
 (defun shipped-rules ()
-  (values (supergrip::read-data-file (project-file "rules.lisp"))))
+  (supergrip::data-file-forms (supergrip::read-data-file (project-file "rules.lisp"))))
 
 (defun run-rules-alone (rulebase box)
   "Run RULEBASE on BOX.  Returns the verdict, and the log, the newest event first."
