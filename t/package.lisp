@@ -11,20 +11,22 @@
 (in-suite all)
 
 (defun run-tests ()
-  "Run all tests that are loaded, print what failed and the line `N passed, N failed`.
-Signals an error, after that line, if something failed or nothing ran."
+  "Run all tests that are loaded, print what failed or was skipped, and the line
+`N passed, N failed`.  Signals an error, after that line, if something failed or nothing ran."
   (let* ((results (let ((*test-dribble* *standard-output*)) (run 'all)))
-         (failed (remove-if #'passed-p results))
-         (passed (- (length results) (length failed))))
-    (when failed
-      (explain! failed))
-    (format t "~&~d passed, ~d failed~%" passed (length failed))
+         (passed (count-if (lambda (result) (typep result 'fiveam::test-passed)) results))
+         (skipped (remove 'fiveam::test-skipped results :key #'type-of :test-not #'eq))
+         (failed (- (length results) passed (length skipped))))
+    (when (plusp failed)
+      (explain! results))
+    (format t "~&~:{~a skipped: ~a~%~}"
+            (loop for result in skipped
+                  collect (list (fiveam::name (fiveam::test-case result))
+                                (fiveam::reason result))))
+    (format t "~d passed, ~d failed~%" passed failed)
     (finish-output)
-    (when (or failed (zerop passed))
+    (when (or (plusp failed) (zerop passed))
       (error "the tests did not pass"))))
-
-(defun passed-p (result)
-  (typep result 'fiveam::test-passed))
 
 (defun problem-texts (function)
   "Return the report lines of the input error that FUNCTION signals, or NIL."
