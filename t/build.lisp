@@ -2,14 +2,7 @@
 ;;;;
 ;;;; Only what is compiled now can warn: give it an empty cache, by XDG_CACHE_HOME.
 
-(require :asdf)
-
-(asdf:initialize-source-registry
- `(:source-registry
-   (:directory ,(merge-pathnames "../" (make-pathname :name nil :type nil :defaults *load-truename*)))
-   ,@(loop for name in '("fiveam" "alexandria" "asdf-flv" "trivial-backtrace" "cl-who")
-           collect `(:directory ,(format nil "/usr/share/common-lisp/source/~a/" name)))
-   :inherit-configuration))
+(load (merge-pathnames "registry.lisp" *load-truename*))
 
 (defvar *warnings* '())
 

@@ -1,15 +1,6 @@
 ;;;; run.lisp -- sbcl --script t/run.lisp [SYSTEM] runs all tests, or those of one test system.
 
-(require :asdf)
-
-;; Debian's FiveAM and what it needs, and cl-who for the pictures, each directory named: a search
-;; could find another ASDF.
-(asdf:initialize-source-registry
- `(:source-registry
-   (:directory ,(merge-pathnames "../" (make-pathname :name nil :type nil :defaults *load-truename*)))
-   ,@(loop for name in '("fiveam" "alexandria" "asdf-flv" "trivial-backtrace" "cl-who")
-           collect `(:directory ,(format nil "/usr/share/common-lisp/source/~a/" name)))
-   :inherit-configuration))
+(load (merge-pathnames "registry.lisp" *load-truename*))
 
 (handler-case
     (progn
