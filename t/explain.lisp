@@ -442,3 +442,32 @@
                                                   (let ((*package* (find-package :supergrip-user)))
                                                     (list (prin1-to-string value))))))
                          "~s gave~%~{~a~%~}" form output)))))))
+
+(defun readme-example (number)
+  "Return the NUMBER-th block of the README's section on a new grasp, with an empty line before."
+  (let ((text (file-text "README.md")) (start 0) (end 0))
+    (setf end (search "### A new grasp in two edits" text))
+    (loop repeat number
+          do (setf start (+ 8 (search "```lisp" text :start2 end))
+                   end (search "```" text :start2 start)))
+    (format nil "~%~a" (subseq text start end))))
+
+(test a-new-grasp-takes-two-edits
+  (let ((grasps (concatenate 'string (file-text "grasps.lisp") (readme-example 1)))
+        (rules (replace-once (file-text "rules.lisp") ";;; Reconstructed: the end of the search"
+                             (format nil "~a~%;;; Reconstructed: the end of the search"
+                                     (readme-example 2)))))
+    (let ((reports (mapcar #'princ-to-string
+                           (nth-value 1 (text-knowledge (file-text "rules.lisp") grasps)))))
+      (is (equal '("grasps.lisp:345: warning: GRASP LATERAL: no rule tries it") reports))
+      (is (search (first reports) (substitute #\Space #\Newline (file-text "README.md")))
+          "the README says the same"))
+    (multiple-value-bind (knowledge problems) (text-knowledge rules grasps)
+      (is (null problems))
+      (is (= 3 (count "LATERAL" (supergrip:plan-possible
+                                 (supergrip:plan '((size 8.6d0 5.4d0 0.08d0) (weight 0.005d0)
+                                                   (u 0.4d0) (v 0.1d0) (constrained x2)
+                                                   (force-needed (1 1 1 0 0 0))
+                                                   (velocity-needed (1 1 1 0 0 0)))
+                                                 :knowledge knowledge))
+                      :key #'supergrip:candidate-grasp :test #'string=))))))

@@ -129,3 +129,23 @@
                                           (velocity-needed ,velocity)))))
              (is (equal grasp (supergrip:plan-grasp plan)) "~a: ~a~%~s" grasp plan
                  (supergrip:possible-grasps plan)))))
+
+(test every-rule-fires-for-some-box-and-every-box-gets-a-verdict
+  (let ((fired '()) (faults '()))
+    (dolist (box (random-boxes 5000 21))
+      (let* ((plan (supergrip::observed-plan
+                    box supergrip:*knowledge* 0.5d0
+                    (lambda (unfinished)
+                      (declare (ignore unfinished))
+                      (lambda (what &rest arguments)
+                        (when (and (eq what :bindings) (second arguments))
+                          (pushnew (supergrip-chainer:rule-name (first arguments)) fired
+                                   :test #'string=))))))
+             (stop (supergrip::plan-stop plan)))
+        (cond ((null stop) (push (list box "no rule ends the run") faults))
+              ((and (member (supergrip-chainer:rule-name (supergrip-chainer:stop-rule stop))
+                            '("GRIP1" "GRIP2" "GRIP3") :test #'string=)
+                    (supergrip:plan-candidates plan))
+               (push (list box "tried in an obvious case") faults)))))
+    (is (null faults) "~s" (first faults))
+    (is (= 15 (length fired)) "only ~s" fired)))
