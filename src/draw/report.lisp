@@ -383,10 +383,23 @@ needed."
 
 ;;; The page
 
+(defun put-changes (plan)
+  "Write which single need, friction or weight would have to change for the choice to change."
+  (let ((changes (advice-changes (advise plan))))
+    (if changes
+        (markup (:ul (loop for change in (subseq changes 0 (min 5 (length changes)))
+                           do (markup (:li (say "If ~a were ~a, not ~a: ~a."
+                                                (change-what change)
+                                                (supergrip::figure-exact (change-to change))
+                                                (supergrip::figure-exact (change-from change))
+                                                (supergrip::choice-text
+                                                 (change-plan change))))))))
+        (markup (:p "No single need, friction or weight would.")))))
+
 (defun report (plan file)
   "Write a page about PLAN to FILE, HTML complete in itself: the box, the verdict in words,
-pictures, all candidates with the reasons of those that failed, and what the rules found, each fact linked to
-the rule and to the facts that made it.  Needs no network and no script.  Returns FILE."
+pictures, what would change the choice, all candidates with the reasons of those that failed, and
+what the rules found, each fact linked to the rule and to the facts that made it.  Needs no network and no script.  Returns FILE."
   (with-page (file (format nil "SUPER-GRIP: ~a" (page-title plan)))
     (:header
      (:h1 (say "~a" (page-title plan)))
@@ -401,6 +414,8 @@ the rule and to the facts that made it.  Needs no network and no script.  Return
      (when (plan-possible plan)
        (markup (:h2 "The best few")
                (put-best plan)))
+     (:h2 "What would change the choice")
+     (put-changes plan)
      (:h2 "All candidates")
      (if (plan-candidates plan)
          (put-candidates plan)
