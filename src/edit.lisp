@@ -46,7 +46,7 @@ the last one, which keeps the best; anything else at the end."
                           forms)
              (error 'no-rule-error :name before
                                    :known (mapcar #'rule-name (knowledge-rules *knowledge*)))))
-        ((part-named-p form "RULE") (max 0 (1- (length forms))))
+        ((part-p form "RULE") (max 0 (1- (length forms))))
         (t (length forms))))
 
 (defun put-form (form forms before)
@@ -64,7 +64,7 @@ before the last; a new grasp goes last.  Returns the new knowledge.
 On a KNOWLEDGE-ERROR the former knowledge stays in force; the restart CONTINUE goes on with it.  The
 files stay as they are: RELOAD-KNOWLEDGE takes edits back."
   (let* ((form (canonical form))
-         (rule-p (part-named-p form "RULE")))
+         (rule-p (part-p form "RULE")))
     (flet ((edited (file)
              (let ((copy (copy-data-file file)))
                (setf (data-file-forms copy) (put-form form (data-file-forms file) before))
@@ -85,7 +85,7 @@ files stay as they are: RELOAD-KNOWLEDGE takes edits back."
 (defmacro supergrip-user::setq (&rest pairs)
   "SETQ, but (SETQ name '(USED-SURFACES ...)) and (SETQ GRIPPER '(...)) edit the knowledge in force."
   (destructuring-bind (&optional name value) (if (= (length pairs) 2) pairs '())
-    (if (and (part-named-p value "QUOTE")
+    (if (and (part-p value "QUOTE")
              (consp (second value))
              (or (name= name "GRIPPER")
                  (some (lambda (key) (name= key "USED-SURFACES")) (second value))))

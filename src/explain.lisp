@@ -33,6 +33,11 @@
   (print-unreadable-object (explanation stream :type t)
     (write-string (topic explanation) stream)))
 
+(defun known-names (knowledge)
+  "Return the names of the rules and the grasps of KNOWLEDGE."
+  (append (mapcar #'rule-name (knowledge-rules knowledge))
+          (mapcar #'grasp-name (knowledge-grasps knowledge))))
+
 (defun in-force-p (name)
   "True if the knowledge in force has a rule or a grasp NAME."
   (or (find-rule (knowledge-rulebase *knowledge*) name)

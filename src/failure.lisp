@@ -41,7 +41,7 @@
 
 (defun describe-operand (form matching)
   "Return FORM, an operand of a comparison, in words."
-  (cond ((and (part-named-p form "DIST") (quoted-slots (second form)))
+  (cond ((and (part-p form "DIST") (quoted-slots (second form)))
          (format nil "the distance of ~{~a and ~a~}"
                  (loop for slot in (quoted-slots (second form)) collect (face-of slot matching))))
         ((or (name= form "U") (name= form "V")) (string-downcase form))

@@ -164,12 +164,9 @@ CONSTANTS, a table from a double to its node, shared by all forms."
 
 (defun quoted-slots (form)
   "Return the slots that FORM, '(N1 N2), lists, or NIL."
-  (let* ((list (and (part-named-p form "QUOTE") (second form)))
+  (let* ((list (and (part-p form "QUOTE") (second form)))
          (slots (and (consp list) (mapcar #'slot-index list))))
     (and slots (notany #'null slots) slots)))
-
-(defun part-named-p (form name)
-  (and (consp form) (name= (first form) name)))
 
 (defun parse-dist (form)
   (let ((slots (and (= (length form) 2) (quoted-slots (second form)))))
@@ -264,8 +261,8 @@ the right: a AND b OR c is a AND (b OR c)."
   (let ((*form* (if (and (consp form) (line-known-p form)) form *form*)))
     (cond ((name= form "T") (make-node :op :true :form form))
           ((not (consp form)) (complain form "~a is not a test" (form-text form)))
-          ((part-named-p form "CONSTRAINED") (parse-constrained form))
-          ((part-named-p form "NOT") (parse-not form scope))
+          ((part-p form "CONSTRAINED") (parse-constrained form))
+          ((part-p form "NOT") (parse-not form scope))
           ((connective-p (first form)) (parse-prefix-connective form scope))
           ((comparison-p (first form)) (parse-comparison form (rest form) (first form) scope))
           ((null (rest form)) (parse-test (first form) scope))
@@ -273,7 +270,7 @@ the right: a AND b OR c is a AND (b OR c)."
 
 (defun parse-constrained (form)
   (let ((slot (and (= (length form) 2)
-                   (slot-index (if (part-named-p (second form) "QUOTE")
+                   (slot-index (if (part-p (second form) "QUOTE")
                                    (second (second form))
                                    (second form))))))
     (if slot
@@ -345,11 +342,11 @@ the right: a AND b OR c is a AND (b OR c)."
 LET*, LET, COND or IF, that gives them.  NIL after a complaint."
   (let ((*form* (if (and (consp form) (line-known-p form)) form *form*)))
     (cond ((not (consp form)) (complain form "~a is not a list of six entries" (form-text form)))
-          ((part-named-p form "LIST") (parse-six-entries form (rest form) scope))
-          ((part-named-p form "LET*") (parse-let form scope #'parse-six t))
-          ((part-named-p form "LET") (parse-let form scope #'parse-six nil))
-          ((part-named-p form "COND") (parse-cond form scope #'parse-six))
-          ((part-named-p form "IF") (parse-if form scope #'parse-six))
+          ((part-p form "LIST") (parse-six-entries form (rest form) scope))
+          ((part-p form "LET*") (parse-let form scope #'parse-six t))
+          ((part-p form "LET") (parse-let form scope #'parse-six nil))
+          ((part-p form "COND") (parse-cond form scope #'parse-six))
+          ((part-p form "IF") (parse-if form scope #'parse-six))
           (t (parse-six-entries form form scope)))))
 
 (defun parse-six-entries (form entries scope)

@@ -297,14 +297,14 @@ after TURN as far as the paper's index can tell, which takes the lesser of two d
 
 (defun definition-form (form)
   "Return the name and the list of FORM, (SETQ name '(...)), or NIL after a complaint."
-  (if (and (part-named-p form "SETQ") (= (length form) 3) (namep (second form))
-           (part-named-p (third form) "QUOTE") (consp (second (third form))))
+  (if (and (part-p form "SETQ") (= (length form) 3) (namep (second form))
+           (part-p (third form) "QUOTE") (consp (second (third form))))
       (values (second form) (second (third form)))
       (complain form "a grasp file holds (SETQ GRIPPER '(...)), (DEFUN name (parameter...) form) ~
                       and (SETQ grasp '(...)), not ~a" (form-text form))))
 
 (defun gripper-form-p (form)
-  (and (part-named-p form "SETQ") (consp (rest form)) (name= (second form) "GRIPPER")))
+  (and (part-p form "SETQ") (consp (rest form)) (name= (second form) "GRIPPER")))
 
 (defun global-scope (gripper)
   "Return the scope of a grasp file with GRIPPER.  Dimensions that it lacks, of which was complained,
@@ -341,7 +341,7 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
     (dolist (form forms)
       (let ((*form* form))
         (cond ((gripper-form-p form))
-              ((part-named-p form "DEFUN") (parse-helper form scope))
+              ((part-p form "DEFUN") (parse-helper form scope))
               (t (multiple-value-bind (name plist) (definition-form form)
                    (let ((draft (and name (parse-grasp name plist form scope))))
                      (cond ((null draft)

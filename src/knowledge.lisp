@@ -85,14 +85,14 @@ What is wrong is left out."
 
 (defun tried-names (form)
   "Return the names of the grasps that the rule FORM tries."
-  (loop for action in (rest (find-if (lambda (part) (part-named-p part "THEN")) form))
-        when (and (part-named-p action "TRY") (consp (rest action)) (namep (second action)))
+  (loop for action in (rest (find-if (lambda (part) (part-p part "THEN")) form))
+        when (and (part-p action "TRY") (consp (rest action)) (namep (second action)))
           collect (symbol-name (second action))))
 
 (defun check-tried (graspbase rule-forms)
   "Warn of grasps that no rule tries."
   (let ((tried (loop for form in rule-forms
-                     when (part-named-p form "RULE") append (tried-names form))))
+                     when (part-p form "RULE") append (tried-names form))))
     (dolist (grasp (graspbase-grasps graspbase))
       (unless (member (grasp-name grasp) tried :test #'string=)
         (let ((*subject* (format nil "GRASP ~a" (grasp-name grasp))))

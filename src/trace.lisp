@@ -15,8 +15,7 @@ many bindings, 3 also every action and the candidates that fail, 4 also what mee
     (if (in-force-p name)
         name
         (error 'no-rule-error :name name
-                              :known (append (mapcar #'rule-name (knowledge-rules *knowledge*))
-                                             (mapcar #'grasp-name (knowledge-grasps *knowledge*)))))))
+                              :known (known-names *knowledge*)))))
 
 (defun trace-rule (&rest names)
   "Trace the rules NAMES in full, whatever the level.  Returns the names of all that is traced."

@@ -131,8 +131,7 @@ faces) if that is given, was not chosen, a NOT-CHOSEN."
     (cond ((and rule (null matching)) (refuse-rule rule plan))
           ((null grasp)
            (error 'no-rule-error :name name
-                                 :known (append (mapcar #'rule-name (knowledge-rules knowledge))
-                                                (mapcar #'grasp-name (knowledge-grasps knowledge)))))
+                                 :known (known-names knowledge)))
           ((null matching) (refuse-grasp grasp plan))
           ((not (and (consp matching) (= (length matching) 6)))
            (make-not-chosen :kind :no-matching :grasp grasp

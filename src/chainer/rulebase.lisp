@@ -222,9 +222,6 @@ is wrong, and stores the ACTION-FUNCTION."
         collect (let ((*form* (if (consp form) form *form*)))
                   (funcall parse form))))
 
-(defun part-p (form word)
-  (and (consp form) (name= (first form) word)))
-
 (defun parse-rule (form)
   "Return the rule that FORM, (RULE name (IF clause...) (THEN action...)), spells.
 NIL after a complaint."

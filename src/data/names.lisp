@@ -19,6 +19,10 @@
   "Return the one of NAMES, symbols or strings, that has the letters of NAME, or NIL."
   (and (namep name) (find (symbol-name name) names :test #'string= :key #'string)))
 
+(defun part-p (form name)
+  "True if FORM is a list that begins with NAME."
+  (and (consp form) (name= (first form) name)))
+
 (defun canonical-name (text)
   "Return the symbol that stands for TEXT.  A name that the program itself knows becomes the
 keyword that its code uses; any other becomes a fresh symbol, which can be collected: reading

@@ -16,7 +16,7 @@ in them.")
    #:knowledge-warning    #:knowledge-warning-problems
    #:retry
    ;; names and forms
-   #:name-text #:name= #:name-in #:namep #:canonical #:canonical-name #:form-text #:as-double
+   #:name-text #:name= #:name-in #:namep #:part-p #:canonical #:canonical-name #:form-text #:as-double
    ;; reader
    #:source #:string-source #:stream-source #:source-line #:source-column #:source-name
    #:read-datum #:skip-blanks #:end-of-data #:read-all #:record-start-line
