@@ -40,8 +40,8 @@ WORDS what it said, as strings."
 
 (defun run-rules (rulebase memory)
   "Run the rules of RULEBASE on MEMORY, in order, each once.
-All bindings of a rule are found first; then its first action is done for all of them, then its
-second.  Returns the STOP of the action that ended the run, or NIL if none did."
+All bindings of a rule are found first; then its first action is done for all of them (once, if it
+is the same for all), then its second.  Returns the STOP of the action that ended the run, or NIL."
   (declare (type memory memory))
   (loop for rule across (rulebase-rules rulebase)
         do (let ((count (funcall (the function (rule-matcher rule)) memory)))
@@ -50,7 +50,7 @@ second.  Returns the STOP of the action that ended the run, or NIL if none did."
                (dolist (action (rule-actions rule))
                  (let ((function (action-function action)))
                    (declare (function function))
-                   (dotimes (i count)
+                   (dotimes (i (if (action-once action) 1 count))
                      (let ((stop (funcall function memory (aref (memory-bindings memory) i))))
                        (when stop
                          (return-from run-rules stop)))))))))
@@ -74,17 +74,31 @@ second.  Returns the STOP of the action that ended the run, or NIL if none did."
         (when predicate
           (setf (action-predicate action) predicate
                 (action-terms action) terms
+                (action-once action) (notany #'term-variable-p terms)
                 (action-function action)
-                (let ((rule *rule*) (number (action-number action))
-                      (arity (predicate-arity predicate)))
-                  (lambda (memory binding)
-                    (let ((packed (instantiate terms binding)))
-                      ;; A variable may have taken a face that the action names: no list of
-                      ;; distinct faces, and nothing to remember.
-                      (when (and (= (pack-count packed) arity)
-                                 (remember memory predicate packed))
-                        (log-event memory rule number binding)))
-                    nil)))))))
+                (remember-function predicate terms (action-number action)))))))
+
+(defun remember-function (predicate terms number)
+  "Return the function of the action NUMBER of the rule being read, which remembers PREDICATE of
+TERMS."
+  (let ((rule *rule*)
+        (arity (predicate-arity predicate))
+        (variables (loop for place below (length (rule-variables *rule*)) collect place)))
+    (flet ((put (memory packed binding)
+             (when (remember memory predicate packed)
+               (log-event memory rule number binding))
+             nil))
+      (declare (inline put))
+      (if (equal terms variables)
+          ;; As often: what to remember is the binding itself.
+          (lambda (memory binding)
+            (put memory binding binding))
+          (lambda (memory binding)
+            (let ((packed (instantiate terms binding)))
+              ;; A variable may have taken a face that the action names: no list of distinct
+              ;; faces, and nothing to remember.
+              (when (= (pack-count packed) arity)
+                (put memory packed binding))))))))
 
 (define-action :cant (action rulebase)
   (let ((words (action-operands action)))

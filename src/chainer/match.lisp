@@ -1,29 +1,80 @@
 ;;;; match.lisp -- an antecedent becomes a function that finds all its bindings.
 ;;;;
 ;;;; How it works.  A binding is a packed list of faces, variable j at place j, so matching
-;;;; allocates nothing.  Each clause becomes one closure that is called with the memory and the
-;;;; binding so far, and calls the closure of the next clause once for each way in which it can be
-;;;; met; the last one collects the binding.  Which variables are bound where is known when the
-;;;; rule is read, and a clause becomes one of:
+;;;; allocates nothing.  An antecedent becomes a chain of closures.  Each is called with the memory
+;;;; and the binding so far, and calls the next once for each way in which its part can be met; the
+;;;; last one collects the binding.  Which variables are bound where is known when the rule is read.
+;;;; A closure is one of:
 ;;;;
-;;;;   a test of one bit, if all its variables are bound (see MEMORY: a set of faces is a number
-;;;;   below 64, and each predicate holds a 64-bit map of the sets remembered), positive or not;
-;;;;   a walk over the predicate's facts in the order in which they were remembered, each tried
-;;;;   in all orders of its faces, its stored order first;
-;;;;   for a negated clause, an enumeration of its unbound variables over the faces of the box,
-;;;;   which makes a test of it.
+;;;;   a walk over the facts of a clause's predicate in the order in which they were remembered,
+;;;;   each in all orders of its faces, its stored order first: it binds the clause's variables;
+;;;;   an enumeration of the faces for a variable that only a negated clause has;
+;;;;   a test of one bit, for a clause whose variables are bound.
 ;;;;
-;;;; Clauses are met in their order, but a test is made as soon as its variables are bound: it
-;;;; binds nothing, so which bindings are found, and in which order, does not change.
+;;;; Most clauses become none of them.  A clause of one or two surfaces, negated or not, leaves its
+;;;; last variable to be bound a set of faces, six bits that the memory holds ready (see FACT-BITS).
+;;;; So where a variable is bound, the sets of all such clauses are intersected first: they are its
+;;;; filters, one integer each.  Only faces in all sets are tried, and where one is left in a walk
+;;;; over pairs, there is nothing to walk.
+;;;;
+;;;; Tests and filters bind nothing, so that they come before their turn changes neither which
+;;;; bindings are found nor their order.
+;;;;
+;;;; Many a rule says the same after two of its variables were exchanged, as (ADJACENT (s1 s2)).
+;;;; Every binding of it then has a twin, and the later of both does nothing: a run leaves it out.
 
 (in-package :supergrip-chainer)
 
 (deftype matcher () '(function (memory packed) t))
+(deftype filters () '(simple-array (unsigned-byte 62) (*)))
+
+;;; Exchangeable variables
+
+(defvar *exchangeable* '()
+  "The pairs of variables, a list of lists, of whose twin bindings one is enough.")
+
+(defvar *ascending* '()
+  "Those of the variables bound so far that take their faces in ascending order, the latest first.")
+
+(defun exchangeable-p (pair)
+  (or (member pair *exchangeable* :test #'equal)
+      (member (reverse pair) *exchangeable* :test #'equal)))
+
+(defun exchangeable-pairs (rule)
+  "Return the pairs of variables whose exchange leaves RULE as it was: its clauses, and what its
+actions do.  Lists of surfaces are unordered."
+  (let ((variables (loop for place below (length (rule-variables rule)) collect place)))
+    (loop for (a . others) on variables
+          append (loop for b in others
+                       when (and (same-clauses-p rule a b)
+                                 (every (lambda (action) (same-action-p action a b))
+                                        (rule-actions rule)))
+                         collect (list a b)))))
+
+(defun same-clauses-p (rule a b)
+  (flet ((key (clause) (list* (clause-negated clause) (clause-predicate clause)
+                              (sort (copy-list (clause-terms clause)) #'<)))
+         (exchanged (clause)
+           (let ((other (copy-clause clause)))
+             (setf (clause-terms other) (sublis (list (cons a b) (cons b a)) (clause-terms clause)))
+             other)))
+    (let ((clauses (rule-clauses rule)))
+      (null (set-exclusive-or (mapcar #'key clauses)
+                              (mapcar (lambda (clause) (key (exchanged clause))) clauses)
+                              :test #'equal)))))
+
+(defun same-action-p (action a b)
+  (or (action-once action)
+      (and (action-predicate action)
+           (eq (null (member a (action-terms action))) (null (member b (action-terms action)))))))
+
+;;; From clauses to matchers
 
 (defun compile-antecedent (rule)
-  "Return a function of a memory that collects the bindings of RULE into it and returns how many
-there are."
-  (let ((matcher (compile-clauses (rule-clauses rule) '())))
+  "Return a function of a memory that collects the bindings of RULE into it, but not all of those
+that would do nothing, and returns how many there are."
+  (let ((matcher (let ((*exchangeable* (exchangeable-pairs rule)))
+                   (compile-clauses (rule-clauses rule) '()))))
     (declare (function matcher))
     (lambda (memory)
       (setf (memory-found memory) 0)
@@ -32,21 +83,22 @@ there are."
 
 (defun compile-clauses (clauses bound)
   "Return the matcher of CLAUSES, where the variables BOUND are bound before the first."
-  (flet ((unbound (clause)
-           (remove-if (lambda (variable) (member variable bound)) (clause-variables clause))))
-    (let ((test (find-if-not #'unbound clauses))
-          (clause (first clauses)))
-      (cond ((null clauses) #'collect-binding)
-            (test (compile-test test (compile-clauses (remove test clauses) bound)))
-            ((clause-negated clause)
-             (let ((variable (first (unbound clause))))
-               (compile-enumeration variable
-                                    (compile-clauses clauses (cons variable bound)))))
-            (t (compile-walk clause (unbound clause)
-                             (compile-clauses (rest clauses) (append (unbound clause) bound))))))))
+  (let ((test (find-if-not (lambda (clause) (unbound-variables clause bound)) clauses))
+        (clause (first clauses)))
+    (cond ((null clauses) #'collect-binding)
+          (test (compile-test test (compile-clauses (remove test clauses) bound)))
+          ((clause-negated clause)
+           (compile-enumeration (first (unbound-variables clause bound)) clauses bound))
+          (t (compile-walk clause (rest clauses) bound)))))
 
 (defun clause-variables (clause)
   (remove-if-not #'term-variable-p (clause-terms clause)))
+
+(defun unbound-variables (clause bound)
+  (set-difference-in-order (clause-variables clause) bound))
+
+(defun set-difference-in-order (list others)
+  (remove-if (lambda (element) (member element others)) list))
 
 (defun collect-binding (memory binding)
   (declare (type memory memory) (type packed binding))
@@ -60,134 +112,265 @@ there are."
 
 ;;; The faces that terms stand for
 
-(declaim (inline face-bit))
+(declaim (inline face-bit only-face several-p))
 (defun face-bit (binding place)
   "Return the set of the one face at PLACE of BINDING."
   (declare (type packed binding) (type (integer 0 5) place))
   (the (unsigned-byte 6) (ash 1 (the surface (pack-ref binding place)))))
+
+(defun only-face (set)
+  "Return the one face of SET."
+  (declare (type (integer 1 63) set))
+  (the surface (1- (integer-length set))))
+
+(defun several-p (set)
+  "True if SET has more than one face."
+  (declare (type (integer 1 63) set))
+  (logtest set (1- set)))
 
 (defun constant-set (terms)
   "Return the set of those of TERMS that are faces."
   (reduce #'logior (remove-if #'term-variable-p terms)
           :key (lambda (term) (ash 1 (- -1 term)))))
 
-(defmacro with-face-set ((set terms binding) matcher)
-  "Return MATCHER, a LAMBDA form of a parameter BINDING, in which SET is the set of the faces that
-TERMS stand for.  It is compiled for each count of variables, since it is what matching does most."
-  `(let ((constants (constant-set ,terms))
-         (variables (remove-if-not #'term-variable-p ,terms)))
-     (declare (type (unsigned-byte 6) constants))
-     (case (length variables)
-       (0 (symbol-macrolet ((,set constants)) ,matcher))
-       (1 (let ((a (first variables)))
-            (declare (type (integer 0 5) a))
-            (symbol-macrolet ((,set (logior constants (face-bit ,binding a)))) ,matcher)))
-       (2 (destructuring-bind (a b) variables
-            (declare (type (integer 0 5) a b))
-            (symbol-macrolet ((,set (logior constants (face-bit ,binding a)
-                                            (face-bit ,binding b))))
-              ,matcher)))
-       (t (symbol-macrolet ((,set (logior constants (variable-set variables ,binding))))
-            ,matcher)))))
-
-(defun variable-set (variables binding)
-  "Return the set of the faces that VARIABLES have under BINDING."
-  (let ((set 0))
+(declaim (inline face-set))
+(defun face-set (constants variables binding)
+  "Return the set of the faces of CONSTANTS, a set, and of those that VARIABLES have under BINDING."
+  (declare (type (unsigned-byte 6) constants))
+  (let ((set constants))
     (declare (type (unsigned-byte 6) set))
     (dolist (place variables set)
       (setf set (logior set (face-bit binding place))))))
+
+;;; Filters.  One is an integer: where in the binding the other face of its clause stands, a face
+;;; that it names itself, times six, whether it is negated, the faces that it leaves, and the index
+;;; of its predicate.
+
+(defun pack-filter (clause variable)
+  "Return the filter that CLAUSE, of one or two surfaces, is for VARIABLE."
+  (let* ((other (first (remove variable (clause-terms clause))))
+         (face (and other (not (term-variable-p other)) (- -1 other))))
+    ;; Place 6 of a binding is always empty: it reads as face 0.
+    (logior (+ 6 (* 3 (if (or (null other) face) 6 other)))
+            (ash (* 6 (or face 0)) 5)
+            (ash (if (clause-negated clause) 63 0) 10)
+            ;; The faces of a list are distinct.
+            (ash (if face (logxor 63 (ash 1 face)) 63) 16)
+            (ash (predicate-index (clause-predicate clause)) 22))))
+
+(declaim (inline allowed-faces))
+(defun allowed-faces (memory binding filters)
+  "Return the set of the faces that are not in BINDING and that all FILTERS leave."
+  (declare (type memory memory) (type packed binding) (type filters filters))
+  (let ((set (logxor 63 (pack-mask binding)))
+        (relations (memory-relations memory)))
+    (declare (type (unsigned-byte 6) set))
+    (loop for filter across filters
+          do (let* ((other (ldb (byte 3 0) (ash binding (- (ldb (byte 5 0) filter)))))
+                    (shift (+ (ldb (byte 5 5) filter) (* 6 other)))
+                    (partners (ash (aref relations (ash filter -22)) (- shift))))
+               (setf set (logand set
+                                 (logxor (ldb (byte 6 0) partners) (ldb (byte 6 10) filter))
+                                 (ldb (byte 6 16) filter)))))
+    set))
+
+(defun filter-clauses (variable clauses bound)
+  "Return those of CLAUSES that are filters for VARIABLE, to be bound after BOUND."
+  (remove-if-not (lambda (clause)
+                   (and (<= (length (clause-terms clause)) 2)
+                        (equal (list variable) (unbound-variables clause bound))))
+                 clauses))
+
+(defun pack-filters (clauses variable)
+  (coerce (loop for clause in clauses collect (pack-filter clause variable)) 'filters))
 
 ;;; A test of one bit
 
 (defun compile-test (clause next)
   "Return a matcher of CLAUSE, all of whose variables are bound, that goes on with NEXT."
+  (if (clause-variables clause)
+      (compile-variable-test clause next)
+      (let ((bits (fact-bits (length (clause-terms clause))
+                             (pack (mapcar (lambda (term) (- -1 term)) (clause-terms clause)))))
+            (index (predicate-index (clause-predicate clause)))
+            (wanted (not (clause-negated clause))))
+        (declare (function next))
+        (lambda (memory binding)
+          (declare (type memory memory) (type packed binding))
+          (when (eq wanted (known-p memory index bits))
+            (funcall next memory binding))))))
+
+(defun compile-variable-test (clause next)
+  "Return a matcher of CLAUSE, of three or more surfaces, bound variables among them."
   (let* ((terms (clause-terms clause))
          (index (predicate-index (clause-predicate clause)))
-         (arity (length terms)))
-    (declare (function next) (fixnum index))
-    (if (clause-negated clause)
-        (with-face-set (faces terms binding)
-          (lambda (memory binding)
-            (declare (type memory memory) (type packed binding) (ignorable binding))
-            (let ((set faces))
-              ;; A variable may have taken a face that the clause names: no list of distinct faces.
-              (when (and (= (logcount set) arity) (not (known-p memory index set)))
-                (funcall next memory binding)))))
-        (with-face-set (faces terms binding)
-          (lambda (memory binding)
-            (declare (type memory memory) (type packed binding))
-            (when (known-p memory index faces)
-              (funcall next memory binding)))))))
+         (arity (length terms))
+         (wanted (not (clause-negated clause)))
+         (constants (constant-set terms))
+         (variables (clause-variables clause)))
+    (declare (function next))
+    (lambda (memory binding)
+      (declare (type memory memory) (type packed binding))
+      (let ((set (face-set constants variables binding)))
+        ;; A variable may have taken a face that the clause names: no list of distinct faces.
+        (when (and (= (logcount set) arity)
+                   (eq wanted (known-p memory index (ash 1 set))))
+          (funcall next memory binding))))))
 
 ;;; An enumeration of faces
 
-(defun compile-enumeration (place next)
-  "Return a matcher that binds the variable PLACE to each face not bound yet, and goes on with
-NEXT."
-  (declare (type (integer 0 5) place) (function next))
-  (lambda (memory binding)
-    (declare (type packed binding))
-    (dotimes (surface 6)
-      (unless (logbitp surface binding)
-        (funcall next memory (pack-with binding place surface))))))
+(defun compile-enumeration (place clauses bound)
+  "Return a matcher that binds the variable PLACE to each face not bound yet, in ascending order,
+and goes on with CLAUSES."
+  (let* ((filter-clauses (filter-clauses place clauses bound))
+         (filters (pack-filters filter-clauses place))
+         ;; Of twins the one with the ascending faces comes first.
+         (twin (find-if (lambda (other) (exchangeable-p (list place other))) *ascending*))
+         (next (let ((*ascending* (cons place *ascending*)))
+                 (compile-clauses (set-difference-in-order clauses filter-clauses)
+                                  (cons place bound)))))
+    (declare (type (integer 0 5) place) (type (or null (integer 0 5)) twin) (function next)
+             (type filters filters))
+    (lambda (memory binding)
+      (declare (type memory memory) (type packed binding))
+      (let ((left (allowed-faces memory binding filters)))
+        (declare (type (unsigned-byte 6) left))
+        (when twin
+          (setf left (logandc2 left (1- (face-bit binding twin)))))
+        (loop until (zerop left)
+              do (let ((face (only-face (logand left (- left)))))
+                   (setf left (logand left (1- left)))
+                   (funcall next memory (pack-with binding place face))))))))
 
 ;;; A walk over facts
 
-(declaim (inline only-face))
-(defun only-face (set)
-  "Return the one face of SET."
-  (declare (type (integer 1 63) set))
-  (the surface (1- (integer-length set))))
-
-(defun compile-walk (clause unbound next)
+(defun compile-walk (clause clauses bound)
   "Return a matcher that meets CLAUSE with each fact of its predicate, in each order, and goes on
-with NEXT.  UNBOUND are the variables of CLAUSE that it binds."
-  (let* ((predicate (clause-predicate clause))
-         (index (predicate-index predicate))
-         (start (predicate-start predicate))
-         (only (and (null (rest unbound)) (first unbound)))
-         (places (compile-places unbound next))
-         (required (remove-if (lambda (term) (member term unbound)) (clause-terms clause)))
-         (count (length required)))
-    (declare (fixnum index) (type (unsigned-byte 20) start) (function next places)
-             (type (or null (integer 0 5)) only))
-    (with-face-set (faces required binding)
+with CLAUSES."
+  (let* ((unbound (unbound-variables clause bound))
+         (filters (loop for variable in unbound
+                        collect (let ((own (filter-clauses variable clauses bound)))
+                                  (setf clauses (set-difference-in-order clauses own))
+                                  (push variable bound)
+                                  (pack-filters own variable))))
+         (next (compile-clauses clauses bound)))
+    (case (length unbound)
+      (1 (compile-walk-for-one clause (first unbound) (first filters) next))
+      (2 (compile-walk-for-two clause unbound filters next))
+      (t (compile-walk-for-several clause unbound filters next)))))
+
+(defun required-terms (clause unbound)
+  "Return the terms of CLAUSE that stand for a face before it binds the variables UNBOUND: the set
+of those that are faces, and the variables."
+  (let ((terms (set-difference-in-order (clause-terms clause) unbound)))
+    (values (constant-set terms) (remove-if-not #'term-variable-p terms) (length terms))))
+
+(defun compile-walk-for-one (clause place filters next)
+  "Return a matcher that meets CLAUSE, of which only the variable PLACE is not bound."
+  (multiple-value-bind (constants variables count) (required-terms clause (list place))
+    (let* ((index (predicate-index (clause-predicate clause)))
+           (pairs (<= count 1))
+           ;; With one or two surfaces CLAUSE is a filter itself: all that it leaves are facts.
+           (filters (if pairs
+                        (concatenate 'filters (list (pack-filter clause place)) filters)
+                        filters)))
+      (declare (type (integer 0 5) place) (function next) (type filters filters))
       (lambda (memory binding)
         (declare (type memory memory) (type packed binding))
-        (let* ((set faces)
-               (taken (logior set (pack-mask binding)))
-               (facts (memory-facts memory)))
-          ;; A variable may have taken a face that the clause names: no list of distinct faces.
-          (when (= (logcount set) count)
-            (loop for i of-type (unsigned-byte 24) from start
-                  repeat (aref (memory-counts memory) index)
-                  do (let* ((fact (aref facts i))
-                            (left (logandc2 (pack-mask fact) set)))
-                       (declare (type packed fact))
-                       ;; What the fact has of the faces taken is what the clause asks for.
-                       (when (= set (logand taken fact))
-                         ;; The face of an only variable is what is left: no places to try.
-                         (if only
-                             (funcall next memory (pack-with binding only (only-face left)))
-                             (funcall places memory binding fact left)))))))))))
+        (let ((allowed (allowed-faces memory binding filters)))
+          (declare (type (unsigned-byte 6) allowed))
+          (cond ((zerop allowed))
+                ((and pairs (not (several-p allowed)))
+                 (funcall next memory (pack-with binding place (only-face allowed))))
+                (t
+                 (let ((set (face-set constants variables binding)))
+                   (do-facts (fact memory index)
+                     (let ((left (logandc2 (pack-mask fact) set)))
+                       ;; All faces but one are those that the clause asks for.
+                       (when (and (logtest left allowed) (not (several-p left)))
+                         (funcall next memory
+                                  (pack-with binding place (only-face left))))))))))))))
 
-(defun compile-places (variables next)
-  "Return a function of a memory, a binding, a fact and the set of its faces that are left, as many
-as VARIABLES: it gives them those faces in all orders, and goes on with NEXT."
-  (declare (function next))
+(declaim (inline first-face))
+(defun first-face (fact set)
+  "Return the first face of the list FACT that is in SET, which holds one of them at least."
+  (declare (type packed fact) (type (integer 1 63) set))
+  (loop for rest of-type packed = (ash fact -6) then (ash rest -3)
+        when (logbitp (logand rest 7) set) return (the surface (logand rest 7))))
+
+(defun compile-walk-for-two (clause unbound filters next)
+  "Return a matcher that meets CLAUSE, of which the two variables UNBOUND are not bound; they have
+FILTERS, two."
+  (multiple-value-bind (constants variables count) (required-terms clause unbound)
+    (destructuring-bind ((place1 place2) (filters1 filters2) index twins)
+        (list unbound filters (predicate-index (clause-predicate clause))
+              (exchangeable-p unbound))
+      (declare (type (integer 0 5) place1 place2) (type filters filters1 filters2)
+               (function next) (fixnum count))
+      (lambda (memory binding)
+        (declare (type memory memory) (type packed binding))
+        (let* ((set (face-set constants variables binding))
+               (taken (logior set (pack-mask binding)))
+               (allowed (allowed-faces memory binding filters1)))
+          (flet ((give (face1 face2)
+                   (when (logbitp face1 allowed)
+                     (let ((binding (pack-with binding place1 face1)))
+                       (when (logbitp face2 (allowed-faces memory binding filters2))
+                         (funcall next memory (pack-with binding place2 face2)))))))
+            (declare (inline give))
+            ;; A variable may have taken a face that the clause names: no list of distinct faces.
+            (when (and (= (logcount set) count) (plusp allowed))
+              (do-facts (fact memory index)
+                (let ((left (logandc2 (pack-mask fact) set)))
+                  ;; What the fact has of the faces taken is what the clause asks for.
+                  (when (and (= set (logand taken fact)) (logtest left allowed))
+                    (let* ((face1 (first-face fact left))
+                           (face2 (only-face (logandc2 left (ash 1 face1)))))
+                      (give face1 face2)
+                      (unless twins
+                        (give face2 face1)))))))))))))
+
+(defun compile-walk-for-several (clause unbound filters next)
+  "Return a matcher that meets CLAUSE, of which the variables UNBOUND are not bound; they have
+FILTERS, a list."
+  (multiple-value-bind (constants variables count) (required-terms clause unbound)
+    (let* ((index (predicate-index (clause-predicate clause)))
+           (filter (first filters))
+           (places (compile-places unbound (rest filters) next)))
+      (declare (function places) (type filters filter) (fixnum count))
+      (lambda (memory binding)
+        (declare (type memory memory) (type packed binding))
+        (let* ((set (face-set constants variables binding))
+               (taken (logior set (pack-mask binding)))
+               (allowed (allowed-faces memory binding filter)))
+          ;; A variable may have taken a face that the clause names: no list of distinct faces.
+          (when (and (= (logcount set) count) (plusp allowed))
+            (do-facts (fact memory index)
+              (let ((left (logandc2 (pack-mask fact) set)))
+                ;; What the fact has of the faces taken is what the clause asks for.
+                (when (and (= set (logand taken fact)) (logtest left allowed))
+                  (funcall places memory binding fact left allowed))))))))))
+
+(defun compile-places (variables filters next)
+  "Return a function of a memory, a binding, a fact, the set of its faces that are left, as many as
+VARIABLES, and the set of the faces allowed for the first: it gives them those faces in all orders,
+and goes on with NEXT.  FILTERS are those of the other variables."
   (let ((place (first variables)))
-    (declare (type (integer 0 5) place))
     (if (null (rest variables))
-        (lambda (memory binding fact left)
-          (declare (type packed binding) (ignore fact))
-          (funcall next memory (pack-with binding place (only-face left))))
-        (let ((further (compile-places (rest variables) next)))
-          (declare (function further))
-          (lambda (memory binding fact left)
-            (declare (type packed binding fact) (type (unsigned-byte 6) left))
+        (lambda (memory binding fact left allowed)
+          (declare (type packed binding) (type (unsigned-byte 6) left allowed) (ignore fact))
+          (when (logtest left allowed)
+            (funcall (the function next) memory (pack-with binding place (only-face left)))))
+        (let ((further (compile-places (rest variables) (rest filters) next))
+              (filter (first filters)))
+          (declare (type (integer 0 5) place) (function further) (type filters filter))
+          (lambda (memory binding fact left allowed)
+            (declare (type memory memory) (type packed binding fact)
+                     (type (unsigned-byte 6) left allowed))
             (dotimes (j (logcount (pack-mask fact)))
-              (let ((surface (pack-ref fact (the (integer 0 5) j))))
-                (declare (type surface surface))
-                (when (logbitp surface left)
-                  (funcall further memory (pack-with binding place surface) fact
-                           (logandc2 left (ash 1 surface)))))))))))
+              (let ((face (pack-ref fact (the (integer 0 5) j))))
+                (declare (type surface face))
+                (when (logbitp face (logand left allowed))
+                  (let ((binding (pack-with binding place face)))
+                    (funcall further memory binding fact (logandc2 left (ash 1 face))
+                             (allowed-faces memory binding filter)))))))))))

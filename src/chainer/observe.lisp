@@ -5,9 +5,8 @@
 (in-package :supergrip-chainer)
 
 (defun rule-bindings (rule memory)
-  "Return the bindings of RULE on MEMORY, packed, in their order."
-  (let ((count (funcall (rule-matcher rule) memory)))
-    (loop for i below count collect (aref (memory-bindings memory) i))))
+  "Return all bindings of RULE on MEMORY, packed, in their order."
+  (prefix-bindings rule (length (rule-clauses rule)) memory))
 
 (defun prefix-bindings (rule count memory)
   "Return the bindings that meet the first COUNT clauses of RULE on MEMORY."

@@ -8,10 +8,11 @@
 
 (defstruct action
   "One action of a consequent.  VERB is its first word, a string, OPERANDS the rest of FORM.
-FUNCTION is called with a memory and a binding; it returns NIL, or a STOP to end the run.
-PREDICATE and TERMS are what it remembers, TARGET what else it names, if anything."
+FUNCTION is called with a memory and a binding; it returns NIL, or a STOP to end the run.  ONCE is
+true if no binding after the first makes a difference.  PREDICATE and TERMS are what it remembers,
+TARGET what else it names, if anything."
   (verb "" :type string) (operands '()) (form nil)
-  (function nil :type (or null function))
+  (function nil :type (or null function)) (once nil)
   (predicate nil) (terms '() :type list) (target nil))
 
 (defstruct rule
@@ -279,12 +280,8 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
     *rulebase*))
 
 (defun number-predicates (rulebase)
-  "Lay out the facts of all predicates of RULEBASE in one vector."
-  (let ((predicates (make-array (hash-table-count (rulebase-table rulebase))))
-        (start 0))
+  "Put all predicates of RULEBASE into one vector, each at its index."
+  (let ((predicates (make-array (hash-table-count (rulebase-table rulebase)))))
     (loop for predicate being the hash-values of (rulebase-table rulebase)
           do (setf (svref predicates (predicate-index predicate)) predicate))
-    (loop for predicate across predicates
-          do (setf (predicate-start predicate) start)
-             (incf start (predicate-room predicate)))
     (setf (rulebase-predicates rulebase) predicates)))
