@@ -9,6 +9,7 @@
   :pathname "src/"
   :serial t
   :components ((:file "package")
+               (:file "sbcl")
                (:file "frames")
                (:file "box")
                (:file "forms")
@@ -27,7 +28,6 @@
                (:file "trace")
                (:file "repl")
                (:file "edit")
-               (:file "sbcl")
                (:file "input")
                (:file "output")
                (:file "jsonbox")

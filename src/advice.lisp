@@ -36,24 +36,24 @@ of CHANGEs, the smallest first."
                   collect (surface-name (svref faces slot)))
             (surface-name palm) (svref +approaches+ palm))))
 
+(defun limit-at (axis has needs radius)
+  "Return the LIMIT of RADIUS on AXIS, 0 to 5, where the grasp HAS, and the task NEEDS, six numbers."
+  (make-limit :axis (axis-name axis) :has (aref has axis) :needs (aref needs axis) :radius radius))
+
 (defun force-limit (candidate plan)
   "Return the LIMIT of u_w of CANDIDATE, or NIL if no force is needed."
   (when (candidate-force-axis candidate)
-    (let ((attempt (replay candidate plan))
-          (axis (%candidate-force-limit candidate)))
+    (with-replay (attempt candidate plan)
       (shift-force (%box-force (plan-box plan)) (attempt-offset attempt) (attempt-need attempt))
-      (make-limit :axis (axis-name axis) :has (aref (attempt-wrench attempt) axis)
-                  :needs (aref (attempt-need attempt) axis)
-                  :radius (candidate-force-radius candidate)))))
+      (limit-at (%candidate-force-limit candidate) (attempt-wrench attempt) (attempt-need attempt)
+                (candidate-force-radius candidate)))))
 
 (defun velocity-limit (candidate plan)
   "Return the LIMIT of u_t of CANDIDATE, or NIL if no velocity is needed."
   (when (candidate-velocity-axis candidate)
-    (let ((attempt (replay candidate plan))
-          (axis (%candidate-velocity-limit candidate)))
-      (make-limit :axis (axis-name axis) :has (aref (attempt-twist attempt) axis)
-                  :needs (aref (attempt-need attempt) axis)
-                  :radius (candidate-velocity-radius candidate)))))
+    (with-replay (attempt candidate plan)
+      (limit-at (%candidate-velocity-limit candidate) (attempt-twist attempt)
+                (attempt-need attempt) (candidate-velocity-radius candidate)))))
 
 ;;; What would change the choice.  Each value of the task, the friction and the weight alone is moved
 ;;; away from what it is, until the plan chooses otherwise; then the place is found by halving.

@@ -1,10 +1,11 @@
-;;;; emit.lisp -- trees of nodes become functions over registers.
+;;;; emit.lisp -- trees of nodes become programs of a small machine, which runs them.
 ;;;;
 ;;;; Second of two stages.  All numbers live in one array of doubles, the registers: first what
 ;;;; the box and the matching give, then the constants of all forms, then intermediate results.
-;;;; A form becomes a list of steps.  A step is an operation, packed in one integer, that reads two
-;;;; registers and writes one, or a function that takes a branch; so nothing is boxed.  A step that
-;;;; was already done in the same list is not done again.
+;;;; A form becomes a program: instructions of four small numbers each, an operator, two registers
+;;;; to read, and one to write or the instruction to jump to.  So a form is run by one loop that
+;;;; boxes and allocates nothing.  What was already computed on every way to an instruction is not
+;;;; computed again.
 
 (in-package :supergrip)
 
@@ -41,13 +42,11 @@ the first register that is free, MOST the most that were ever used."
     registers))
 
 (defstruct code
-  "A list of steps being emitted: STEPS, the latest first; DONE, what is already computed, by node
-and by operator and registers; LAYOUT."
+  "A program being emitted: STEPS, instructions and labels, the latest first; DONE, what is already
+computed, by node and by operator and registers; LAYOUT."
   (steps '()) (done '()) layout)
 
-(defun inner-code (code)
-  "Return an empty list of steps that run after those of CODE, perhaps not always."
-  (make-code :done (code-done code) :layout (code-layout code)))
+(defstruct label "A place in a program." (place nil))
 
 (defun new-register (code)
   (let ((layout (code-layout code)))
@@ -55,209 +54,260 @@ and by operator and registers; LAYOUT."
       (incf (layout-top layout))
       (setf (layout-most layout) (max (layout-most layout) (layout-top layout))))))
 
-(defmacro with-branch-registers ((code) &body body)
-  "Run BODY, which emits a branch for CODE; the registers that it takes are free again after it."
+(defun emit-step (code op &optional (a 0) (b 0) (to 0))
+  (push (list op a b to) (code-steps code)))
+
+(defun emit-label (code label)
+  (push label (code-steps code)))
+
+(defmacro perhaps-run ((code) &body body)
+  "Run BODY, which emits what is not always run: what it computes is not done for what follows."
+  `(let ((done (code-done ,code)))
+     (prog1 (progn ,@body)
+       (setf (code-done ,code) done))))
+
+(defmacro in-branch ((code) &body body)
+  "As PERHAPS-RUN; the registers that BODY takes are free again after it."
   `(let* ((layout (code-layout ,code))
           (top (layout-top layout)))
-     (prog1 (progn ,@body)
+     (prog1 (perhaps-run (,code) ,@body)
        (setf (layout-top layout) top))))
 
-(defmacro step-function ((registers) &body body)
-  `(lambda (,registers)
-     (declare (type registers ,registers))
-     ,@body))
+;;; Numbers
 
-(defun emit (node code)
-  "Emit NODE, which gives a number, and return the register that will hold it."
+(defun emit (node code &optional to)
+  "Emit NODE, which gives a number, and return the register that will hold it: TO, if it is given
+and the number is in none yet."
   (or (cdr (assoc node (code-done code) :test #'eq))
-      (let ((register (emit-node node code)))
+      (let ((register (emit-node node code to)))
         (push (cons node register) (code-done code))
         register)))
 
-(defun emit-node (node code)
+(defun emit-node (node code to)
   (ecase (node-op node)
     (:constant (gethash node (layout-constants (code-layout code))))
     (:input (first (node-args node)))
     (:let (dolist (eager (first (node-args node)))
             (emit eager code))
-     (emit (second (node-args node)) code))
-    (:cond (emit-cond node code))
-    ((:sqrt) (emit-operation (node-op node) (emit (first (node-args node)) code) 0 code))
+     (emit (second (node-args node)) code to))
+    (:cond
+     (let ((to (or to (new-register code))))
+       (emit-branches (node-args node) code (lambda (value) (emit-into value code to)))
+       to))
+    (:sqrt (emit-operation :sqrt (emit (first (node-args node)) code) 0 code to))
     ((:+ :- :* :/ :min :max :expt)
      (let* ((a (emit (first (node-args node)) code))
             (b (emit (second (node-args node)) code)))
-       (emit-operation (node-op node) a b code)))))
+       (emit-operation (node-op node) a b code to)))))
 
-(defun emit-operation (op a b code)
+(defun emit-operation (op a b code to)
   "Emit OP on the registers A and B, unless it is already done."
   (let ((key (list op a b)))
     (or (cdr (assoc key (code-done code) :test #'equal))
-        (let ((register (new-register code)))
-          (push (pack-operation op a b register) (code-steps code))
+        (let ((register (or to (new-register code))))
+          (emit-step code op a b register)
           (push (cons key register) (code-done code))
           register))))
 
-;;; Operations: the number of the operator, and the registers of two operands and of the result.
+(defun emit-into (node code to)
+  "Emit NODE, so that the register TO will hold it."
+  (let ((from (emit node code to)))
+    (unless (= from to)
+      (emit-step code :move from 0 to))))
 
-(deftype operations () '(simple-array (unsigned-byte 62) (*)))
-
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (defparameter +operators+ #(:+ :- :* :/ :min :max :sqrt :expt)))
-
-(defun pack-operation (op a b to)
-  "Return the operation that stores OP of the registers A and B in the register TO."
-  (declare (type register a b to))
-  (logior (position op +operators+) (ash a 4) (ash b 20) (ash to 36)))
-
-(defun run-operations (operations r)
-  "Do OPERATIONS, in order, on the registers R."
-  (declare (type operations operations) (type registers r))
-  (loop for operation across operations
-        do (symbol-macrolet ((a (aref r (ldb (byte 16 4) operation)))
-                             (b (aref r (ldb (byte 16 20) operation)))
-                             (to (aref r (ldb (byte 16 36) operation))))
-             (let ((x a) (y b))
-               (macrolet ((store (&rest results)
-                            `(ecase (ldb (byte 4 0) operation)
-                               ,@(loop for (op form) in results
-                                       collect `(,(position op +operators+) (setf to ,form))))))
-                 ;; What is called gets A and B: X and Y are never boxed then.
-                 (store (:+ (+ x y))
-                        (:- (- x y))
-                        (:* (* x y))
-                        (:/ (/ x y))
-                        (:min (if (< y x) y x))
-                        (:max (if (> y x) y x))
-                        (:sqrt (if (< x 0d0) (real-root a) (sqrt (the (double-float 0d0) x))))
-                        (:expt (real-power a b))))))))
-
-(defun run-function (code)
-  "Return a function of registers that runs the steps of CODE, or NIL if there are none."
-  (labels ((chain (steps)
-             (let* ((end (or (position-if #'functionp steps) (length steps)))
-                    (operations (coerce (subseq steps 0 end) 'operations))
-                    (branch (nth end steps))
-                    (further (and branch (chain (nthcdr (1+ end) steps)))))
-               (declare (type operations operations))
-               (if (null branch)
-                   (step-function (r) (run-operations operations r))
-                   (step-function (r)
-                     (run-operations operations r)
-                     (funcall (the function branch) r)
-                     (funcall (the function further) r))))))
-    (and (code-steps code) (chain (reverse (code-steps code))))))
-
-(defun emit-cond (node code)
-  "Emit a COND that gives a number."
-  (let ((to (new-register code)))
-    (declare (type register to))
-    (push (branch-step (loop for (test value) in (node-args node)
-                             collect (with-branch-registers (code)
-                                       (let* ((inner (inner-code code))
-                                              (from (emit value inner)))
-                                         (list (emit-test test code) (run-function inner)
-                                               (list from) (list to))))))
-          (code-steps code))
-    to))
-
-(defun branch-step (branches)
-  "Return a step that runs the first of BRANCHES whose test is true.
-A branch is a test, a function or NIL, registers to read, registers to write."
-  (destructuring-bind (test run from to) (first branches)
-    (declare (function test))
-    (let ((move (move-step from to))
-          (else (and (rest branches) (branch-step (rest branches)))))
-      (declare (function move))
-      (step-function (r)
-        (cond ((funcall test r)
-               (when run (funcall (the function run) r))
-               (funcall move r))
-              (else (funcall (the function else) r)))))))
-
-(defun move-step (from to)
-  (step-function (r)
-    (loop for a of-type register in from
-          for b of-type register in to
-          do (setf (aref r b) (aref r a)))))
-
-;;; Tests
-
-(defun emit-test (node code)
-  "Return a function of registers that is true where NODE, a test, is.
-What it needs that CODE has not computed, it computes itself."
-  (ecase (node-op node)
-    (:true (step-function (r) (declare (ignore r)) t))
-    (:false (step-function (r) (declare (ignore r)) nil))
-    (:not (let ((test (emit-test (first (node-args node)) code)))
-            (declare (function test))
-            (step-function (r) (not (funcall test r)))))
-    ((:and :or) (emit-connective node code))
-    (:blocked (let ((register (+ +blocked+ (first (node-args node)))))
-                (declare (type register register))
-                (step-function (r) (= 1d0 (aref r register)))))
-    ((:< :<= :> :>= :=) (emit-comparison node code))))
-
-(defun emit-connective (node code)
-  (let ((a (emit-test (first (node-args node)) code))
-        (b (emit-test (second (node-args node)) code)))
-    (declare (function a b))
-    (if (eq (node-op node) :and)
-        (step-function (r) (and (funcall a r) (funcall b r)))
-        (step-function (r) (or (funcall a r) (funcall b r))))))
-
-(defun emit-comparison (node code)
-  (let* ((inner (inner-code code))
-         (a (emit (first (node-args node)) inner))
-         (b (emit (second (node-args node)) inner))
-         (run (run-function inner)))
-    (declare (type register a b) (type (or null function) run))
-    (setf (node-registers node) (list a b))
-    (macrolet ((comparison (op)
-                 `(step-function (r)
-                    (when run (funcall run r))
-                    (,op (aref r a) (aref r b)))))
-      (ecase (node-op node)
-        (:< (comparison <))
-        (:<= (comparison <=))
-        (:> (comparison >))
-        (:>= (comparison >=))
-        (:= (comparison =))))))
+(defun emit-branches (branches code give &optional (end (make-label)))
+  "Emit the clauses BRANCHES of a COND; GIVE emits the value of one."
+  (destructuring-bind ((test value) . others) branches
+    (cond ((eq t (test-value test))
+           (in-branch (code) (funcall give value))
+           (emit-label code end))
+          (t
+           (let ((otherwise (make-label)))
+             (emit-jump test nil otherwise code)
+             (in-branch (code) (funcall give value))
+             (emit-step code :jump 0 0 end)
+             (emit-label code otherwise)
+             (in-branch (code) (emit-branches others code give end)))))))
 
 ;;; Lists of six
 
-(defun emit-six (node code)
+(defun emit-six (node code &optional (to (make-list 6)))
   "Emit NODE, which gives six numbers, and return the registers that will hold them."
   (ecase (node-op node)
-    (:list (loop for entry in (node-args node) collect (emit entry code)))
+    (:list (loop for entry in (node-args node)
+                 for register in to
+                 collect (emit entry code register)))
     (:let (dolist (eager (first (node-args node)))
             (emit eager code))
-     (emit-six (second (node-args node)) code))
+     (emit-six (second (node-args node)) code to))
     (:cond
-     (let ((to (loop repeat 6 collect (new-register code))))
-       (push (branch-step (loop for (test value) in (node-args node)
-                                collect (with-branch-registers (code)
-                                          (let* ((inner (inner-code code))
-                                                 (from (emit-six value inner)))
-                                            (list (emit-test test code) (run-function inner)
-                                                  from to)))))
-             (code-steps code))
+     (let ((to (if (first to) to (loop repeat 6 collect (new-register code)))))
+       (emit-branches (node-args node) code (lambda (value) (emit-six-into value code to)))
        to))))
 
+(defun emit-six-into (node code to)
+  (loop for from in (emit-six node code to)
+        for register in to
+        unless (= from register)
+          do (emit-step code :move from 0 register)))
+
+;;; Tests
+
+(defun emit-jump (node wanted label code)
+  "Emit a jump to LABEL if NODE, a test, is true (WANTED true) or false (WANTED NIL)."
+  (destructuring-bind (&optional a b) (node-args node)
+    (ecase (node-op node)
+      (:true (when wanted (emit-step code :jump 0 0 label)))
+      (:false (unless wanted (emit-step code :jump 0 0 label)))
+      (:not (emit-jump a (not wanted) label code))
+      (:and (emit-connective a b wanted (not wanted) label code))
+      (:or (emit-connective a b wanted wanted label code))
+      (:blocked (emit-step code (if wanted :jump-blocked :jump-free) (+ +blocked+ a) 0 label))
+      ((:< :<= :> :>= :=) (emit-comparison node wanted label code)))))
+
+(defun emit-connective (a b wanted decisive label code)
+  "Emit a jump to LABEL for the tests A and B.  If A alone decides the result, it is that WANTED for
+the jump (DECISIVE true), or the other."
+  (let ((end (make-label)))
+    (emit-jump a (eq wanted decisive) (if decisive label end) code)
+    (perhaps-run (code) (emit-jump b wanted label code))
+    (emit-label code end)))
+
+(defun emit-comparison (node wanted label code)
+  (destructuring-bind (a b) (loop for operand in (node-args node) collect (emit operand code))
+    (setf (node-registers node) (list a b))
+    (flet ((jump (op a b) (emit-step code op a b label)))
+      ;; No register ever holds what is not a number, so what is not below is equal or above.
+      (ecase (node-op node)
+        (:< (if wanted (jump :jump< a b) (jump :jump<= b a)))
+        (:<= (if wanted (jump :jump<= a b) (jump :jump< b a)))
+        (:> (if wanted (jump :jump< b a) (jump :jump<= a b)))
+        (:>= (if wanted (jump :jump<= b a) (jump :jump< a b)))
+        (:= (jump (if wanted :jump= :jump/=) a b))))))
+
+;;; Programs
+
+(deftype instructions () '(simple-array (unsigned-byte 16) (*)))
+(deftype register-vector () '(simple-array (unsigned-byte 16) (*)))
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defparameter +operators+
+    #(:end :fail :move :+ :- :* :/ :min :max :sqrt :expt
+      :jump :jump< :jump<= :jump= :jump/= :jump-blocked :jump-free)
+    "The operators of the machine, each at its number."))
+
 (defstruct program
-  "A form ready to run: RUN, a function of registers or NIL, leaves the results in RESULTS."
-  (run nil :type (or null function))
-  (results '() :type list))
+  "A form ready to run: INSTRUCTIONS that leave the results in the registers RESULTS, or that end
+with :FAIL where the form is a test that does not hold; ROOM is how many registers they need."
+  (instructions nil :type instructions)
+  (results nil :type register-vector)
+  (room 0 :type fixnum))
+
+(defun pack-instructions (code)
+  "Return the instructions of CODE."
+  (let ((steps (reverse (code-steps code))) (place 0))
+    (dolist (step steps)
+      (if (label-p step)
+          (setf (label-place step) place)
+          (incf place)))
+    (let ((count (layout-most (code-layout code))))
+      (coerce (loop for step in steps
+                    unless (label-p step)
+                      append (destructuring-bind (op a b to) step
+                               ;; RUN-INSTRUCTIONS relies on it.
+                               (assert (and (< a count) (< b count)
+                                            (if (label-p to) (label-place to) (< to count))))
+                               (list (position op +operators+) a b
+                                     (if (label-p to) (label-place to) to))))
+              'instructions))))
 
 (defun emit-program (layout emit-results)
-  "Return the program that the function EMIT-RESULTS, called with an empty list of steps, emits;
-it returns the registers of the results."
+  "Return the program that the function EMIT-RESULTS, called with empty code, emits; it returns the
+registers of the results."
   (let* ((code (make-code :layout layout))
          (results (funcall emit-results code)))
-    (make-program :run (run-function code) :results results)))
+    (emit-step code :end)
+    (make-program :instructions (pack-instructions code) :results (coerce results 'register-vector)
+                  :room (layout-most layout))))
 
-(declaim (inline run-program))
+(defun emit-test (layout node)
+  "Return the program of NODE, a test."
+  (let ((failed (make-label)))
+    (emit-program layout (lambda (code)
+                           (emit-jump node nil failed code)
+                           (emit-step code :end)
+                           (emit-label code failed)
+                           (emit-step code :fail)
+                           '()))))
+
+;;; The machine
+
+(defun run-instructions (instructions r)
+  "Run INSTRUCTIONS on the registers R.  Returns true if they end with :END.
+What the checks of safe code would find out again at each step, PACK-INSTRUCTIONS and EXECUTE have found:
+every register is one of R, and every jump leads to an instruction."
+  (declare (type instructions instructions) (type registers r) (optimize (safety 0)))
+  (let ((next 0) (a 0) (b 0) (to 0) (x 0d0) (y 0d0))
+    (declare (type (unsigned-byte 24) next) (type register a b to) (double-float x y))
+    (macrolet ((operators (&rest clauses)
+                 ;; Each operator finds the next itself, not one place for all: a processor then
+                 ;; learns what follows what.
+                 (flet ((tag (op) (intern (string op))))
+                   `(macrolet ((go-on ()
+                                 '(let ((op (aref instructions next)))
+                                   (setf a (aref instructions (+ next 1))
+                                         b (aref instructions (+ next 2))
+                                         to (aref instructions (+ next 3))
+                                         x (aref r a)
+                                         y (aref r b)
+                                         next (+ next 4))
+                                   (ecase op
+                                     ,@(loop for (op) in clauses
+                                             collect `(,(position op +operators+)
+                                                       (go ,(tag op))))))))
+                      (prog ()
+                         (go-on)
+                         ,@(loop for (op . body) in clauses
+                                 append `(,(tag op) ,@body (go-on)))))))
+               (put (form) `(setf (aref r to) ,form))
+               (jump-if (test) `(when ,test (setf next (* 4 to)))))
+      (operators
+       (:end (return t))
+       (:fail (return nil))
+       (:move (put x))
+       (:+ (put (+ x y)))
+       (:- (put (- x y)))
+       (:* (put (* x y)))
+       (:/ (put (/ x y)))
+       (:min (put (if (< y x) y x)))
+       (:max (put (if (> y x) y x)))
+       ;; What is called gets registers: X and Y are never boxed then.
+       (:sqrt (if (< x 0d0) (put-root r a to) (put (sqrt (the (double-float 0d0) x)))))
+       (:expt (put-power r a b to))
+       (:jump (setf next (* 4 to)))
+       (:jump< (jump-if (< x y)))
+       (:jump<= (jump-if (<= x y)))
+       (:jump= (jump-if (= x y)))
+       (:jump/= (jump-if (/= x y)))
+       (:jump-blocked (jump-if (= x 1d0)))
+       (:jump-free (jump-if (/= x 1d0)))))))
+
+(defun put-root (r a to)
+  (declare (type registers r) (type register a to))
+  (setf (aref r to) (real-root (aref r a))))
+
+(defun put-power (r a b to)
+  (declare (type registers r) (type register a b to))
+  (setf (aref r to) (real-power (aref r a) (aref r b))))
+
+(declaim (inline execute run-program))
+(defun execute (program registers)
+  "Run PROGRAM on REGISTERS, those of its grasp base.  False if it is a test that does not hold."
+  (declare (type registers registers))
+  (assert (<= (program-room program) (length registers)))
+  (run-instructions (program-instructions program) registers))
+
 (defun run-program (program registers)
-  "Run PROGRAM on REGISTERS and return the list of the registers of its results."
-  (when (program-run program)
-    (funcall (the function (program-run program)) registers))
+  "Run PROGRAM on REGISTERS, and return the registers of its results."
+  (execute program registers)
   (program-results program))

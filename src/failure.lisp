@@ -80,7 +80,7 @@
   (let ((grasp (%candidate-grasp candidate))
         (registers (attempt-registers attempt)))
     (handler-case
-        (progn (funcall (grasp-conditions grasp) registers)
+        (progn (execute (grasp-conditions grasp) registers)
                (failing-test (grasp-conditions-node grasp) registers))
       (arithmetic-error () nil))))
 
@@ -94,7 +94,7 @@
 
 (defun describe-offset-failure (candidate attempt)
   (handler-case
-      (progn (run-program (grasp-offset (%candidate-grasp candidate)) (attempt-registers attempt))
+      (progn (execute (grasp-offset (%candidate-grasp candidate)) (attempt-registers attempt))
              "OFFSET's entries for two opposite faces are not opposite numbers")
     (arithmetic-error () "the fingers can't reach: a root or a quotient of OFFSET has no value")))
 
@@ -102,7 +102,7 @@
   "Return which finger of CANDIDATE would stand beyond an edge, and where."
   (handler-case
       (let ((registers (attempt-registers attempt)))
-        (run-program (grasp-positions (%candidate-grasp candidate)) registers)
+        (execute (grasp-positions (%candidate-grasp candidate)) registers)
         (loop for (slot p q) in (grasp-contacts (%candidate-grasp candidate))
               do (loop for axis in (remove (floor slot 2) '(0 1 2))
                        for register in (list p q)
@@ -120,14 +120,14 @@
 
 (defun program-value-p (program registers)
   "True if PROGRAM has a value on REGISTERS."
-  (handler-case (progn (run-program program registers) t)
+  (handler-case (progn (execute program registers) t)
     (arithmetic-error () nil)))
 
 (defun closed-at-p (grasp registers u)
   "True if GRASP is closed at friction U, the rest as in REGISTERS."
   (setf (aref registers +u+) u)
   (handler-case
-      (loop for register in (run-program (grasp-wrench grasp) registers)
+      (loop for register across (run-program (grasp-wrench grasp) registers)
             always (> (aref registers register) 0d0))
     (arithmetic-error () nil)))
 
@@ -177,7 +177,7 @@
 with the figures.  NIL if it is possible."
   (let ((outcome (candidate-outcome candidate)))
     (unless (eq outcome :possible)
-      (let ((attempt (replay candidate plan)))
+      (with-replay (attempt candidate plan)
         (values outcome
                 (ecase outcome
                   (:conditions (describe-condition-failure candidate attempt))

@@ -9,7 +9,7 @@ VALID holds, for each box face, the set of the matchings that are possible if th
 constrained; SAME, for each matching, the set of those that are the same grasp, itself included."
   (name "" :type string) form file line (comment '()) (index 0 :type fixnum)
   (used '() :type list) (palm 0 :type fixnum)
-  (conditions-node nil) (conditions nil :type (or null function))
+  (conditions-node nil) (conditions nil :type (or null program))
   (offset nil :type (or null program))
   (positions nil :type (or null program)) (contacts '() :type list)
   (wrench nil :type (or null program))
@@ -24,11 +24,12 @@ constrained; SAME, for each matching, the set of those that are the same grasp, 
 
 (defstruct graspbase
   "The gripper (an alist from name to double), the grasps, and the registers that their programs
-start from."
+start from.  SPARE holds attempts to be used again; it alone changes (see MAKE-ATTEMPT)."
   (gripper '() :type list)
   (grasps '() :type list)
   (broken '() :type list)               ; names of grasps that were left out
-  (registers (make-array +inputs-end+ :element-type 'double-float) :type registers))
+  (registers (make-array +inputs-end+ :element-type 'double-float) :type registers)
+  (spare '() :type list))
 
 (defun find-grasp (graspbase name)
   "Return the grasp of GRASPBASE that has NAME, or NIL."
@@ -275,13 +276,13 @@ after TURN as far as the paper's index can tell, which takes the lesser of two d
            (positions (emit-program layout (lambda (code)
                                              (loop for (nil p q) in contacts
                                                    collect (emit p code) collect (emit q code)))))
-           (places (program-results positions)))
+           (places (coerce (program-results positions) 'list)))
       (prog1 (make-grasp
               :name (draft-name draft) :form (draft-form draft) :file (draft-file draft)
               :line (draft-line draft) :comment (draft-comment draft)
               :used (draft-used draft) :palm (draft-palm draft)
               :conditions-node (draft-conditions draft)
-              :conditions (emit-test (draft-conditions draft) (make-code :layout layout))
+              :conditions (emit-test layout (draft-conditions draft))
               :offset (six (draft-offset draft))
               :positions positions
               :contacts (loop for slot in fingers

@@ -70,14 +70,17 @@ in all matchings that use no constrained face, equivalent ones once.  Other argu
 
 (defun finish-plan (attempt memory knowledge stop &optional alone)
   "Return the plan that ATTEMPT and MEMORY hold, of the grasp ALONE if no rule has run.
-Rules that end without KEEP or CANT keep the best."
-  (%make-plan :box (attempt-box attempt) :knowledge knowledge :gamma (attempt-gamma attempt)
-              :stop stop :alone alone
-              :best (and (not (and stop (eq (stop-verdict stop) :cant)))
-                         (attempt-best attempt))
-              :candidates (reverse (attempt-candidates attempt))
-              :log (reverse (memory-log memory))
-              :memory memory))
+Rules that end without KEEP or CANT keep the best.  ATTEMPT is given back."
+  (let ((log (nreverse (memory-log memory))))
+    (setf (memory-client memory) nil
+          (memory-log memory) '())
+    (prog1 (%make-plan :box (attempt-box attempt) :knowledge knowledge
+                       :gamma (attempt-gamma attempt) :stop stop :alone alone
+                       :best (and (not (and stop (eq (stop-verdict stop) :cant)))
+                                  (attempt-best attempt))
+                       :candidates (nreverse (attempt-candidates attempt))
+                       :log log :memory memory)
+      (give-back attempt (knowledge-graspbase knowledge)))))
 
 (defun check-gamma (gamma)
   (let ((number (and (realp gamma) (as-double gamma))))
@@ -193,14 +196,20 @@ the box."
                                      (%candidate-matching candidate)))
   attempt)
 
+(defmacro with-replay ((attempt candidate plan) &body body)
+  "Run BODY with ATTEMPT, which holds the figures of CANDIDATE of PLAN and is given back after it."
+  `(let ((,attempt (replay ,candidate ,plan)))
+     (multiple-value-prog1 (progn ,@body)
+       (give-back ,attempt (knowledge-graspbase (plan-knowledge ,plan))))))
+
 (defun candidate-contacts (candidate plan)
   "Return the contacts of CANDIDATE, which is possible in PLAN: a list of plists with :SURFACE, the
 name of a box face, :POSITION and :NORMAL, lists along X Y Z in the box frame at the box centre;
 positions in cm, the normals point inward."
-  (let* ((attempt (replay candidate plan))
-         (registers (attempt-registers attempt))
-         (matching (%candidate-matching candidate)))
-    (loop for (slot p q) in (grasp-contacts (%candidate-grasp candidate))
+  (with-replay (attempt candidate plan)
+    (loop with registers = (attempt-registers attempt)
+          with matching = (%candidate-matching candidate)
+          for (slot p q) in (grasp-contacts (%candidate-grasp candidate))
           for face = (svref (matching-faces matching) slot)
           collect (list :surface (surface-name face)
                         :position (contact-position attempt matching slot
@@ -223,7 +232,7 @@ positions in cm, the normals point inward."
   "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, gravity's load not taken off:
 six numbers, forces in finger forces, torques in finger force x cm.  NIL where it failed before."
   (and (member (candidate-outcome candidate) '(:possible :lifting))
-       (let ((attempt (replay candidate plan)))
+       (with-replay (attempt candidate plan)
          ;; JUDGE takes the load off in place.
          (if (eq (candidate-outcome candidate) :possible)
              (map 'list #'+ (attempt-wrench attempt) (attempt-load attempt))
@@ -233,4 +242,5 @@ six numbers, forces in finger forces, torques in finger force x cm.  NIL where i
   "Return the mobility of CANDIDATE of PLAN along X Y Z and about X Y Z, six numbers.
 NIL where it failed before."
   (and (member (candidate-outcome candidate) '(:possible :lifting))
-       (coerce (attempt-twist (replay candidate plan)) 'list)))
+       (with-replay (attempt candidate plan)
+         (coerce (attempt-twist attempt) 'list))))

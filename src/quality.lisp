@@ -3,7 +3,7 @@
 (in-package :supergrip)
 
 ;;; Inline, so that the numbers that they take and give are not boxed.
-(declaim (inline embedded-radius put-load quality-index))
+(declaim (inline embedded-radius put-load quality-index shift-force shift-velocity))
 
 (defun embedded-radius (need have)
   "Return the radius of the largest NEED ellipsoid inside HAVE, and the axis that limits it.
@@ -32,11 +32,11 @@ index."
   "Add to OUT, from the place TO, what an OFFSET (three lengths, not below 0) of the grasp centre
 makes of NEEDS from the place FROM: |o_Y| n_Z + |o_Z| n_Y to the first, and so on cyclically."
   (declare (type three offset) (type six needs out) (type (integer 0 3) from to))
-  (dotimes (i 3)
-    (let ((j (mod (+ i 1) 3)) (k (mod (+ i 2) 3)))
-      (incf (aref out (+ to i))
-            (+ (* (aref offset j) (aref needs (+ from k)))
-               (* (aref offset k) (aref needs (+ from j))))))))
+  (macrolet ((add (i j k)
+               `(incf (aref out (+ to ,i))
+                      (+ (* (aref offset ,j) (aref needs (+ from ,k)))
+                         (* (aref offset ,k) (aref needs (+ from ,j)))))))
+    (add 0 1 2) (add 1 2 0) (add 2 0 1)))
 
 (defun shift-force (needs offset out)
   "Put into OUT the forces and torques NEEDS at the box centre as they are at the grasp centre,

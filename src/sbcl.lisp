@@ -1,4 +1,4 @@
-;;;; sbcl.lisp -- all that the command line needs of SBCL itself: file descriptors, signals, digits.
+;;;; sbcl.lisp -- all that is needed of SBCL itself: file descriptors, signals, digits, atomic lists.
 ;;;;
 ;;;; Streams of the standard would do for none of it: they wait until a buffer is full, so a pipe
 ;;;; that pauses would get no answer, and they hide why a write failed.
@@ -24,6 +24,16 @@
 (defun closed-pipe-p (condition)
   "True if the SYSTEM-FAILURE CONDITION says that nobody reads what is written."
   (eql (system-failure-errno condition) sb-unix:epipe))
+
+;;; Lists that several threads share
+
+(defmacro take-from (place)
+  "Take the first element of the list in PLACE, a slot of a structure, or return NIL."
+  `(sb-ext:atomic-pop ,place))
+
+(defmacro give-to (place object)
+  "Put OBJECT before the list in PLACE, a slot of a structure."
+  `(sb-ext:atomic-push ,object ,place))
 
 ;;; Signals
 

@@ -151,7 +151,8 @@ rule, CONTINUE to the next break."))
 (defun observed-plan (box knowledge gamma make-observer)
   "Return the plan for BOX; its run is watched by what MAKE-OBSERVER returns for the unfinished plan."
   (multiple-value-bind (attempt memory) (start-plan box knowledge gamma)
-    (let* ((unfinished (finish-plan attempt memory knowledge nil))
+    (let* ((unfinished (%make-plan :box (attempt-box attempt) :knowledge knowledge
+                                   :gamma (attempt-gamma attempt) :memory memory))
            (stop (run-observed (knowledge-rulebase knowledge) memory
                                (funcall make-observer unfinished))))
       (finish-plan attempt memory knowledge stop))))

@@ -21,11 +21,11 @@
 (defun make-six () (make-array 6 :element-type 'double-float :initial-element 0d0))
 (defun make-three () (make-array 3 :element-type 'double-float :initial-element 0d0))
 
-(defstruct (attempt (:constructor %make-attempt))
+(defstruct (attempt (:constructor %make-attempt (registers tried)))
   "All that trying grasps on one box needs and leaves: the registers, what was tried of each grasp
 (a set of matchings), and the candidates, the latest first.  The arrays are the current
 candidate's, in the box frame."
-  (box nil :type box) (gamma 0.5d0 :type double-float)
+  (box nil :type (or null box)) (gamma 0.5d0 :type double-float)
   (registers nil :type registers)
   (tried nil :type (simple-array (unsigned-byte 24) (*)))
   (candidates '() :type list) (best nil)
@@ -35,13 +35,27 @@ candidate's, in the box frame."
   (load (make-six) :type six) (need (make-six) :type six))
 
 (defun make-attempt (box graspbase gamma)
-  "Return an attempt at BOX with nothing tried yet."
-  (let ((registers (copy-seq (graspbase-registers graspbase))))
-    (setf (aref registers +u+) (%box-u box)
-          (aref registers +v+) (%box-v box))
-    (%make-attempt :box box :gamma gamma :registers registers
-                   :tried (make-array (length (graspbase-grasps graspbase))
-                                      :element-type '(unsigned-byte 24) :initial-element 0))))
+  "Return an attempt at BOX with nothing tried yet: one that another plan gave back, or a new one."
+  (let ((attempt (or (take-from (graspbase-spare graspbase))
+                     (%make-attempt (copy-seq (graspbase-registers graspbase))
+                                    (make-array (length (graspbase-grasps graspbase))
+                                                :element-type '(unsigned-byte 24)
+                                                :initial-element 0)))))
+    (declare (type attempt attempt) (type box box))
+    (setf (attempt-box attempt) box
+          (attempt-gamma attempt) gamma
+          (aref (attempt-registers attempt) +u+) (%box-u box)
+          (aref (attempt-registers attempt) +v+) (%box-v box))
+    attempt))
+
+(defun give-back (attempt graspbase)
+  "Let another plan use ATTEMPT, which is at a box no more."
+  (declare (type attempt attempt))
+  (fill (attempt-tried attempt) 0)
+  (setf (attempt-box attempt) nil
+        (attempt-candidates attempt) '()
+        (attempt-best attempt) nil)
+  (give-to (graspbase-spare graspbase) attempt))
 
 ;;; The steps.  Each returns true if the candidate passes.
 
@@ -69,8 +83,8 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
          (results (run-program (grasp-offset grasp) registers))
          (centre (attempt-centre attempt)))
     (dotimes (i 3 t)
-      (let ((plus (aref registers (the register (pop results))))
-            (minus (aref registers (the register (pop results)))))
+      (let ((plus (aref registers (aref results (* 2 i))))
+            (minus (aref registers (aref results (1+ (* 2 i))))))
         (unless (<= (abs (+ plus minus)) (* 1d-9 (+ 1d0 (abs plus))))
           (return nil))
         (setf (aref centre i) (* 0.5d0 (- plus minus)))))))
@@ -86,7 +100,7 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
   (let ((registers (attempt-registers attempt))
         (centre (attempt-centre attempt))
         (lengths (attempt-lengths attempt)))
-    (run-program (grasp-positions grasp) registers)
+    (execute (grasp-positions grasp) registers)
     (loop for (slot p q) of-type (fixnum register register) in (grasp-contacts grasp)
           always (let* ((axis (ash slot -1))
                         (i (if (= axis 0) 1 0))
@@ -101,7 +115,7 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
     (flet ((rotate (results out least)
              (declare (type six out) (double-float least))
              (dotimes (i 6 t)
-               (let ((entry (aref registers (the register (pop results)))))
+               (let ((entry (aref registers (aref results i))))
                  (unless (> entry least) (return nil))
                  (setf (aref out (if (< i 3)
                                      (the (integer 0 2) (svref (matching-axes matching) i))
@@ -167,8 +181,8 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
                        (setf (%candidate-outcome candidate) :possible))))
       (handler-case
           (steps (:conditions (progn (place-box attempt matching)
-                                     (funcall (the function (grasp-conditions grasp))
-                                              (attempt-registers attempt))))
+                                     (execute (grasp-conditions grasp)
+                                          (attempt-registers attempt))))
                  (:offset (find-centre attempt grasp))
                  (:fingers (fingers-on-faces-p attempt grasp))
                  (:open (exert attempt grasp matching))

@@ -229,13 +229,6 @@
                                         (supergrip:plan-grasp (supergrip:change-plan change))))
                 changes))))
 
-(test continue-after-a-bad-edit-keeps-what-was
-  (let ((before supergrip:*knowledge*))
-    (with-knowledge-restored
-      (handler-bind ((supergrip:knowledge-error #'continue))
-        (supergrip:edit '(rule grip9 (if (parallel (s1))) (then (keep best)))))
-      (is (eq before supergrip:*knowledge*)))))
-
 (test what-must-change-does-change-the-choice
   (is (null (first-fault
              (lambda (box)
@@ -328,6 +321,13 @@
 (defmacro with-knowledge-restored (&body body)
   `(let ((supergrip:*knowledge* supergrip:*knowledge*))
      ,@body))
+
+(test continue-after-a-bad-edit-keeps-what-was
+  (let ((before supergrip:*knowledge*))
+    (with-knowledge-restored
+      (handler-bind ((supergrip:knowledge-error #'continue))
+        (supergrip:edit '(rule grip9 (if (parallel (s1))) (then (keep best)))))
+      (is (eq before supergrip:*knowledge*)))))
 
 (test an-edit-comes-into-force-at-once
   (with-knowledge-restored

@@ -34,8 +34,8 @@ and whether the grasping conditions hold."
     (loop for length in size
           for i from supergrip::+distances+
           do (setf (aref registers i) length))
-    (let ((conditions (funcall (supergrip::grasp-conditions grasp) registers)))
-      (values (loop for register in (supergrip::run-program (supergrip::grasp-wrench grasp) registers)
+    (let ((conditions (supergrip::execute (supergrip::grasp-conditions grasp) registers)))
+      (values (loop for register across (supergrip::run-program (supergrip::grasp-wrench grasp) registers)
                     collect (aref registers register))
               conditions))))
 

@@ -62,14 +62,15 @@
     (lambda ()
       (let ((attempt (supergrip::make-attempt (supergrip:plan-box plan) graspbase 0.5d0)))
         (loop for (grasp . matching) in tries
-              do (supergrip::try-matching attempt grasp matching))))))
+              do (supergrip::try-matching attempt grasp matching))
+        (supergrip::give-back attempt graspbase)))))
 
 (defun form-function (plan)
   "Return a function that evaluates the WRENCH of the first candidate of PLAN."
   (let* ((candidate (first (supergrip:plan-candidates plan)))
          (registers (supergrip::attempt-registers (supergrip::replay candidate plan)))
          (program (supergrip::grasp-wrench (supergrip::%candidate-grasp candidate))))
-    (lambda () (supergrip::run-program program registers))))
+    (lambda () (supergrip::execute program registers))))
 
 ;;; The reference engine, of the tests
 
