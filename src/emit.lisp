@@ -41,9 +41,15 @@ the first register that is free, MOST the most that were ever used."
           do (setf (aref registers register) (constant-value node)))
     registers))
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defparameter +operators+
+    #(:end :fail :move :+ :- :* :/ :min :max :sqrt :expt
+      :jump :jump< :jump<= :jump= :jump/= :jump-blocked :jump-free)
+    "The operators of the machine, each at its number."))
+
 (defstruct code
   "A program being emitted: STEPS, instructions and labels, the latest first; DONE, what is already
-computed, by node and by operator and registers; LAYOUT."
+computed, by node and by an integer of operator and registers; LAYOUT."
   (steps '()) (done '()) layout)
 
 (defstruct label "A place in a program." (place nil))
@@ -102,8 +108,8 @@ and the number is in none yet."
 
 (defun emit-operation (op a b code to)
   "Emit OP on the registers A and B, unless it is already done."
-  (let ((key (list op a b)))
-    (or (cdr (assoc key (code-done code) :test #'equal))
+  (let ((key (logior (position op +operators+) (ash a 8) (ash b 24))))
+    (or (cdr (assoc key (code-done code)))
         (let ((register (or to (new-register code))))
           (emit-step code op a b register)
           (push (cons key register) (code-done code))
@@ -189,12 +195,6 @@ the jump (DECISIVE true), or the other."
 
 (deftype instructions () '(simple-array (unsigned-byte 16) (*)))
 (deftype register-vector () '(simple-array (unsigned-byte 16) (*)))
-
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (defparameter +operators+
-    #(:end :fail :move :+ :- :* :/ :min :max :sqrt :expt
-      :jump :jump< :jump<= :jump= :jump/= :jump-blocked :jump-free)
-    "The operators of the machine, each at its number."))
 
 (defstruct program
   "A form ready to run: INSTRUCTIONS that leave the results in the registers RESULTS, or that end

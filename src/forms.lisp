@@ -24,15 +24,43 @@ emitted, are those of its operands."
 
 (defstruct scope
   "What names mean in a form: VARIABLES, an alist from name to node, of which GLOBALS are what
-every form sees; FUNCTIONS, an alist from name to (PARAMETERS . BODY), the latest first;
-CONSTANTS, a table from a double to its node, shared by all forms."
-  (variables '()) (globals '()) (functions '()) (constants (make-hash-table)))
+every form sees; FUNCTIONS, an alist from name to (PARAMETERS . BODY), the latest first, and BROKEN,
+the names of those that are wrong; CONSTANTS, a table of the nodes of all forms' numbers."
+  (variables '()) (globals '()) (functions '()) (broken '()) (constants (make-hash-table)))
+
+(defparameter +most-steps+ 8000
+  "How many steps a form may have once its helpers are opened up: each may call the last twice.")
+
+(defparameter +most-constants+ 16000
+  "How many different numbers a grasp file may have.  Six forms of a grasp, each with the most steps,
+and these take fewer registers than there are.")
+
+(defvar *steps-left* +most-steps+ "How many steps the form being read may still have.")
+(defvar *counted-form* nil "The form whose steps are counted.")
+
+(defmacro counting-steps ((form) &body body)
+  "Run BODY, which reads FORM and complains if it has too many steps."
+  `(let ((*steps-left* +most-steps+) (*counted-form* ,form))
+     ,@body))
+
+(defun too-many-steps-p ()
+  "Count a step, and return true, after a complaint at the first, if it is one too many."
+  (when (minusp (decf *steps-left*))
+    (when (= *steps-left* -1)
+      (complain *counted-form* "more than ~d steps, with the helpers that it calls put in their ~
+                                places" +most-steps+))
+    t))
 
 (defun constant-node (scope number)
-  (let ((number (as-double number)))
-    (or (gethash number (scope-constants scope))
-        (setf (gethash number (scope-constants scope))
-              (make-node :op :constant :args (list number))))))
+  (let* ((number (as-double number))
+         (constants (scope-constants scope))
+         ;; Doubles hash badly.
+         (key (if (zerop number) number (rational number))))
+    (cond ((gethash key constants))
+          ((>= (hash-table-count constants) +most-constants+)
+           (complain nil "more than ~d different numbers in one file" +most-constants+))
+          (t (setf (gethash key constants)
+                   (make-node :op :constant :args (list number)))))))
 
 (defun constant-p (node) (eq (node-op node) :constant))
 (defun constant-value (node) (first (node-args node)))
@@ -56,7 +84,8 @@ CONSTANTS, a table from a double to its node, shared by all forms."
 (defun parse-number-form (form scope)
   "Return the node of FORM, which gives a number, or NIL after a complaint."
   (let ((*form* (if (and (consp form) (line-known-p form)) form *form*)))
-    (cond ((realp form)
+    (cond ((too-many-steps-p) nil)
+          ((realp form)
            (if (as-double form) (constant-node scope form) (complain form "~a is out of range" form)))
           ((namep form) (parse-variable form scope))
           ((and (consp form) (namep (first form))) (parse-operation form scope))
@@ -81,6 +110,8 @@ CONSTANTS, a table from a double to its node, shared by all forms."
           ((string= name "IF") (parse-if form scope #'parse-number-form))
           ((string= name "LET*") (parse-let form scope #'parse-number-form t))
           ((string= name "LET") (parse-let form scope #'parse-number-form nil))
+          ;; Of the helper enough was said.
+          ((member name (scope-broken scope) :test #'string=) (parse-arguments form scope) nil)
           (t (complain form "unknown operator ~a~a in ~a; operators are ~{~a~^ ~}" name
                        (suggestion name (operators scope)) (form-text form) (operators scope))))))
 
@@ -259,7 +290,8 @@ Tests are T, (CONSTRAINED N1), comparisons prefix (< a b) or infix (a < b), (NOT
 joined by AND and OR, prefix or infix; infix AND and OR have equal precedence and associate to
 the right: a AND b OR c is a AND (b OR c)."
   (let ((*form* (if (and (consp form) (line-known-p form)) form *form*)))
-    (cond ((name= form "T") (make-node :op :true :form form))
+    (cond ((too-many-steps-p) nil)
+          ((name= form "T") (make-node :op :true :form form))
           ((not (consp form)) (complain form "~a is not a test" (form-text form)))
           ((part-p form "CONSTRAINED") (parse-constrained form))
           ((part-p form "NOT") (parse-not form scope))

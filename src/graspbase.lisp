@@ -109,9 +109,10 @@ wrong."
              (dolist (parameter parameters)
                (setf inner (bind-variable inner (symbol-name parameter)
                                           (make-node :op :parameter))))
-             (when (parse-number-form (fourth form) inner)
-               (push (list* (symbol-name name) (mapcar #'symbol-name parameters) (fourth form))
-                     (scope-functions scope))))))))
+             (if (counting-steps (form) (parse-number-form (fourth form) inner))
+                 (push (list* (symbol-name name) (mapcar #'symbol-name parameters) (fourth form))
+                       (scope-functions scope))
+                 (push (symbol-name name) (scope-broken scope))))))))
 
 ;;; Grasps
 
@@ -212,12 +213,15 @@ wrong."
     (flet ((value (key) (cdr (assoc key entries :test #'string=)))
            (given (key) (assoc key entries :test #'string=)))
       (macrolet ((part (key form)
-                   `(and (given ,key) (let ((*place* ,key)) ,form))))
+                   `(and (given ,key)
+                         (let ((*place* ,key))
+                           (counting-steps ((value ,key)) ,form)))))
         (let* ((used (part "USED-SURFACES" (parse-used (value "USED-SURFACES"))))
                (palm (and used (let ((*place* "PALM")) (parse-palm (given "PALM") used form))))
                (contacts (and used palm
                               (let ((*place* "CONTACTS"))
-                                (parse-contacts (given "CONTACTS") used palm scope form))))
+                                (counting-steps (form)
+                                  (parse-contacts (given "CONTACTS") used palm scope form)))))
                (conditions (part "CONDITIONS" (parse-conditions (value "CONDITIONS") scope)))
                (offset (part "OFFSET" (parse-six (value "OFFSET") scope)))
                (wrench (part "WRENCH" (parse-six (value "WRENCH") scope)))

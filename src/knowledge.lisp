@@ -3,8 +3,8 @@
 (in-package :supergrip)
 
 (defstruct (knowledge (:constructor %make-knowledge))
-  "Rules and grasps, ready for use; immutable.  RULE-FILE and GRASP-FILE are what they were made of,
-WARNINGS the PROBLEMs that did not prevent it."
+  "Rules and grasps, ready for use; immutable, but for the grasp base's scratch space.  RULE-FILE and
+GRASP-FILE are what they were made of, WARNINGS the PROBLEMs that did not prevent it."
   (rule-file nil) (grasp-file nil)
   (rulebase nil :type rulebase)
   (graspbase nil :type graspbase)

@@ -266,3 +266,30 @@
                  thereis (and (documentation structure 'structure)
                               (or (eql 0 (search (format nil "~a-" structure) name))
                                   (equal name (format nil "MAKE-~a" structure))))))))
+
+(defun doubling-helpers (count)
+  "Return the text of COUNT helpers, a line each, that each call the last one twice."
+  (format nil "(DEFUN F0 (x) (* x u))~%~:{(DEFUN F~d (x) (+ (F~d x) (F~d (+ x 1))))~%~}"
+          (loop for i from 1 below count collect (list i (1- i) (1- i)))))
+
+(test forms-have-a-limit
+  (flet ((reports (helpers wrench)
+           (knowledge-reports "(RULE R (IF (SLIPPERY)) (THEN (TRY G)))"
+                              (format nil "~a~%~a~a" *small-gripper* (doubling-helpers helpers)
+                                      (grasp-text :wrench wrench)))))
+    (is (null (reports 10 "((F9 1) 1 1 1 1 1)")))
+    ;; The helper that goes too far is named, and nobody who calls it.
+    (is (equal '("grasps.lisp:13: DEFUN F10: more than 8000 steps, with the helpers that it calls put in their places")
+               (reports 20 "((F19 1) 1 1 1 1 1)")))
+    (is (equal '("grasps.lisp:16: GRASP G, WRENCH: more than 8000 steps, with the helpers that it calls put in their places")
+               (reports 10 "((F9 1) (F9 2) (F9 3) 1 1 1)"))))
+  (is (equal '("grasps.lisp:5: GRASP G2, WRENCH: more than 16000 different numbers in one file")
+             (knowledge-reports
+              "(RULE R (IF (SLIPPERY)) (THEN (TRY G0)))"
+              (format nil "~a~%~:{(SETQ G~d '(USED-SURFACES (N1 N2 A2) CONDITIONS (u > 0) ~
+                                    OFFSET (0 0 0 0 0 0) WRENCH ((+ u~{ ~d~}) 1 1 1 1 1) ~
+                                    TWIST (1 1 1 1 1 1)))~%~}"
+                      *small-gripper*
+                      (loop for i below 3
+                            collect (list i (loop for n from (* i 7000) repeat 7000
+                                                  collect n))))))))

@@ -259,7 +259,8 @@ of (rule . fact), as strings, in the order in which the facts were remembered."
   (let ((dimensions (loop for (name value) on gripper by #'cddr
                           collect (list name (double value)))))
     `(lambda (u v dist constrained)
-       (declare (ignorable u v))
+       ;; Safety 3, or the compiler would leave out what nobody uses, errors included.
+       (declare (ignorable u v) (optimize (safety 3)))
        ;; The labels name themselves, since CONDITIONS does not quote them.
        (let (,@dimensions ,@(loop for label in *labels* collect `(,label ',label)))
          (declare (ignorable ,@(mapcar #'first dimensions) ,@*labels*))

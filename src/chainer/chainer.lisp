@@ -44,14 +44,14 @@ All bindings of a rule are found first; then its first action is done for all of
 is the same for all), then its second.  Returns the STOP of the action that ended the run, or NIL."
   (declare (type memory memory))
   (loop for rule across (rulebase-rules rulebase)
-        do (let ((count (funcall (the function (rule-matcher rule)) memory)))
-             (declare (fixnum count))
+        do (let ((count (find-bindings (rule-matcher rule) memory)))
              (when (plusp count)
                (dolist (action (rule-actions rule))
-                 (let ((function (action-function action)))
+                 (let ((function (action-function action))
+                       (bindings (memory-bindings memory)))
                    (declare (function function))
                    (dotimes (i (if (action-once action) 1 count))
-                     (let ((stop (funcall function memory (aref (memory-bindings memory) i))))
+                     (let ((stop (funcall function memory (aref bindings i))))
                        (when stop
                          (return-from run-rules stop)))))))))
   nil)

@@ -71,15 +71,17 @@ actions do.  Lists of surfaces are unordered."
 ;;; From clauses to matchers
 
 (defun compile-antecedent (rule)
-  "Return a function of a memory that collects the bindings of RULE into it, but not all of those
-that would do nothing, and returns how many there are."
-  (let ((matcher (let ((*exchangeable* (exchangeable-pairs rule)))
-                   (compile-clauses (rule-clauses rule) '()))))
-    (declare (function matcher))
-    (lambda (memory)
-      (setf (memory-found memory) 0)
-      (funcall matcher memory 0)
-      (memory-found memory))))
+  "Return the matcher of RULE.  It leaves out some of the bindings that would do nothing."
+  (let ((*exchangeable* (exchangeable-pairs rule)))
+    (compile-clauses (rule-clauses rule) '())))
+
+(declaim (inline find-bindings))
+(defun find-bindings (matcher memory)
+  "Put the bindings that MATCHER finds into MEMORY, and return how many there are."
+  (declare (function matcher) (type memory memory))
+  (setf (memory-found memory) 0)
+  (funcall matcher memory 0)
+  (memory-found memory))
 
 (defun compile-clauses (clauses bound)
   "Return the matcher of CLAUSES, where the variables BOUND are bound before the first."
@@ -306,7 +308,7 @@ FILTERS, two."
         (list unbound filters (predicate-index (clause-predicate clause))
               (exchangeable-p unbound))
       (declare (type (integer 0 5) place1 place2) (type filters filters1 filters2)
-               (function next) (fixnum count))
+               (function next) (fixnum count) (type (unsigned-byte 24) index))
       (lambda (memory binding)
         (declare (type memory memory) (type packed binding))
         (let* ((set (face-set constants variables binding))

@@ -45,8 +45,8 @@ lower level need."
                                                :initial-element 0)
                   :ends (make-array (* 2 count) :element-type '(unsigned-byte 32)
                                                 :initial-element 0)
-                  :facts (make-array 32 :element-type '(unsigned-byte 62))
-                  :bindings (make-array 32 :element-type '(unsigned-byte 32))
+                  :facts (make-array 24 :element-type '(unsigned-byte 62))
+                  :bindings (make-array 16 :element-type '(unsigned-byte 32))
                   :client client)))
 
 (declaim (inline fact-bits known-p))

@@ -10,10 +10,9 @@
 
 (defun prefix-bindings (rule count memory)
   "Return the bindings that meet the first COUNT clauses of RULE on MEMORY."
-  (let ((matcher (compile-clauses (subseq (rule-clauses rule) 0 count) '())))
-    (setf (memory-found memory) 0)
-    (funcall matcher memory 0)
-    (loop for i below (memory-found memory) collect (aref (memory-bindings memory) i))))
+  (loop repeat (find-bindings (compile-clauses (subseq (rule-clauses rule) 0 count) '()) memory)
+        for i from 0
+        collect (aref (memory-bindings memory) i)))
 
 (defun run-observed (rulebase memory observer &key (end (length (rulebase-rules rulebase))))
   "Run the first END rules of RULEBASE on MEMORY as RUN-RULES does, and call OBSERVER with
