@@ -2,21 +2,26 @@
 
 (in-package :supergrip-bench)
 
-(defvar *batch-seconds* 1/10
-  "How long a batch of calls lasts at least: the clock may tick every 4 ms.")
+(defvar *batch-seconds* 1/100
+  "How long a batch of calls lasts at least.  Short ones are less likely to be disturbed.")
 
-(defvar *batches* 15 "How many batches of each function are timed.")
+(defvar *batches* 150 "How many batches of each function are timed.")
 
 (defstruct figure
   "A measurement: MINIMUM and MEDIAN seconds, and BYTES consed, of one call; BYTES may be NIL."
   name minimum median bytes)
 
+(defun now ()
+  "Return the time in seconds, to the microsecond: GET-INTERNAL-REAL-TIME may tick every 4 ms."
+  (multiple-value-bind (seconds microseconds) (sb-ext:get-time-of-day)
+    (+ seconds (/ microseconds 1000000))))
+
 (defun seconds-of (function calls)
   "Return how many seconds CALLS calls of FUNCTION take."
   (declare (function function) (fixnum calls))
-  (let ((start (get-internal-real-time)))
+  (let ((start (now)))
     (loop repeat calls do (funcall function))
-    (/ (- (get-internal-real-time) start) internal-time-units-per-second)))
+    (- (now) start)))
 
 (defun calls-in-a-batch (function)
   "Return how many calls of FUNCTION last *BATCH-SECONDS*.  Finding out warms it up."

@@ -147,6 +147,6 @@ remember have NUMBER at the end of their names."
                                                               :arguments (list boxes count)))))
                  1)
                 (* count threads))))
-      (let ((measured (loop repeat 5 collect (list (run 1) (run 2)))))
+      (let ((measured (loop repeat 20 collect (list (run 1) (run 2)))))
         (list (figure-of "1 thread, one random box" (mapcar #'first measured))
               (figure-of "2 threads, one random box" (mapcar #'second measured)))))))

@@ -17,7 +17,7 @@
       (let ((start (1+ (position #\( line))))
         (subseq line start (position #\Space line :start start))))))
 
-(defparameter *clips-sessions* 2000 "How many sessions CLIPS runs in a batch.")
+(defparameter *clips-sessions* 500 "How many sessions CLIPS runs in a batch.")
 
 (defun decimal (text)
   "Return the number that TEXT, as 0.0123, spells."

@@ -91,14 +91,13 @@ a busy machine disturbs least."
     (print-figures (subseq grasps 2)))
   (let ((figures (boxes-growth boxes)))
     (print-figures (remove-if #'numberp figures))
-    (print-figures (threads-growth (first (last boxes 2))))
+    (print-figures (threads-growth (min 30000 (first (last boxes)))))
     (format t "~%Memory in use after each number of boxes, MB: ~{~a~^, ~}~%"
             (remove-if-not #'numberp figures))))
 
 (defun run-benchmark (&key quick)
   "Measure all, print tables.  QUICK: short batches, for a try of the benchmark itself."
-  (let ((*batches* (if quick 3 15))
-        (*batch-seconds* (if quick 1/50 1/10)))
+  (let ((*batches* (if quick 5 150)))
     (check-floor)
     (check-bits (random-boxes 1000 5))
     (format t "~a, ~a~%Times are of one call; a ratio is that of minima, to the first line of ~
