@@ -60,7 +60,7 @@ def view(group, complaints):
     contacts = []
     for circle in group.iter():
         if local(circle) == "circle" and len(circle) and circle[0].text.startswith("Finger"):
-            finger = circle[0].text.split()[1]
+            finger = circle[0].text.split()[1].removeprefix("F")
             contacts.append(f"({finger} {circle.get('cx')}d0 {circle.get('cy')}d0)")
     return (f'({azimuth} {elevation} "{top}" {scale}d0 {x}d0 {y}d0 ({" ".join(contacts)}))')
 

@@ -63,15 +63,15 @@
   "Return in words which fingers oppose which, and where the palm is."
   (let* ((name (subject-namer subject))
          (by-face (loop for face in '(1 0 3 2 5 4)
-                        for numbers = (loop for contact in (subject-contacts subject)
+                        for names = (loop for contact in (subject-contacts subject)
                                             when (= face (contact-face contact))
-                                              collect (contact-number contact))
-                        when numbers collect (cons face numbers)))
-         (pairs (loop for (face . numbers) in by-face
+                                              collect (finger-name contact))
+                        when names collect (cons face names)))
+         (pairs (loop for (face . names) in by-face
                       for other = (cdr (assoc (opposite face) by-face))
                       when (and other (oddp face))
-                        collect (format nil "~{~d~^ and ~} ~:[oppose~;opposes~] ~{~d~^ and ~}"
-                                        numbers (null (rest numbers)) other))))
+                        collect (format nil "~{~a~^ and ~} ~:[oppose~;opposes~] ~{~a~^ and ~}"
+                                        names (null (rest names)) other))))
     (format nil "~:[no two fingers oppose~;~:*~{~a~^, ~}~]; palm over ~a" pairs
             (funcall name (subject-palm subject)))))
 
@@ -100,7 +100,7 @@
     (place-labels (list (+ x 4) (+ y 48) (- width 8) (- height 52)))
     (format nil "~a: ~{~a~^, ~}; ~a." (candidate-grasp candidate)
             (loop for contact in (subject-contacts subject)
-                  collect (format nil "finger ~d on ~a" (contact-number contact)
+                  collect (format nil "finger ~a on ~a" (finger-name contact)
                                   (funcall (subject-namer subject) (contact-face contact))))
             summary)))
 
@@ -118,7 +118,7 @@
   (loop for sign in +grasp-key+
         for line from (+ y 60) by 26
         do (draw-key x line 400 :signs (list sign)))
-  (loop for text in '("1, 2, 3 are the fingers." "N O A are the axes of the grasp:"
+  (loop for text in '("F1, F2, F3 are the fingers." "N O A are the axes of the grasp:"
                       "N1 is the face on the + side of N,"
                       "N2 the one opposed to it, and so on." "The palm is above.")
         for line from (+ y 172) by 21

@@ -110,10 +110,10 @@ forces in units of one finger’s greatest normal force, torques in their produc
   (let ((contacts (subject-contacts subject)))
     (list-text
      (loop for face in (remove-duplicates (mapcar #'contact-face contacts) :from-end t)
-           for numbers = (loop for contact in contacts
-                               when (= face (contact-face contact))
-                                 collect (contact-number contact))
-           collect (format nil "finger~p ~a on ~a" (length numbers) (list-text numbers)
+           for names = (loop for contact in contacts
+                             when (= face (contact-face contact))
+                               collect (finger-name contact))
+           collect (format nil "finger~p ~a on ~a" (length names) (list-text names)
                            (surface-name face))))))
 
 (defun verdict-words (plan)

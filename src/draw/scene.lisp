@@ -252,7 +252,7 @@ box as seen edge-on, so that the box can't hide it."
   (format nil "(~{~a~^, ~})" (mapcar #'decimal vector)))
 
 (defun contact-title (contact)
-  (format nil "Finger ~d on ~a at ~a cm" (contact-number contact)
+  (format nil "Finger ~a on ~a at ~a cm" (finger-name contact)
           (surface-name (contact-face contact)) (place-text (contact-position contact))))
 
 (defun label-anchor (contact)
@@ -278,8 +278,8 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
 
 (defun contact-label (contacts subject)
   (if *small*
-      (format nil "~{~d~^, ~}" (mapcar #'contact-number contacts))
-      (format nil "~{~d~^, ~} on ~a" (mapcar #'contact-number contacts)
+      (format nil "~{~a~^, ~}" (mapcar #'finger-name contacts))
+      (format nil "~{~a~^, ~} on ~a" (mapcar #'finger-name contacts)
               (funcall (subject-namer subject) (contact-face (first contacts))))))
 
 (defun label-contacts (subject)

@@ -8,6 +8,10 @@
 diagram of the finger from the palm to the position."
   number face position path)
 
+(defun finger-name (contact)
+  "Return the name of the finger of CONTACT: F1, so that it can't be taken for a face as N1."
+  (format nil "F~d" (contact-number contact)))
+
 (defstruct subject
   "A box to be drawn, and a grasp of it if PALM, the face that the palm is over, is not NIL.
 LOW and HIGH are the corners of what is shown of it; GAP the length, in cm, from which all that is
