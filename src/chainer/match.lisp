@@ -293,6 +293,26 @@ of those that are faces, and the variables."
                          (funcall next memory
                                   (pack-with binding place (only-face left))))))))))))))
 
+(defmacro do-open-facts ((fact left allowed) (clause unbound filters) (memory binding) &body body)
+  "Return a matcher, a function of MEMORY and BINDING, that runs BODY with each FACT that can meet
+CLAUSE, in their order.  LEFT is the set of its faces that the variables UNBOUND can take, as many
+as they are, and ALLOWED that of the faces that FILTERS leave to the first of them."
+  `(multiple-value-bind (constants variables count) (required-terms ,clause ,unbound)
+     (let ((index (predicate-index (clause-predicate ,clause))))
+       (declare (fixnum count) (type (unsigned-byte 24) index))
+       (lambda (,memory ,binding)
+         (declare (type memory ,memory) (type packed ,binding))
+         (let* ((set (face-set constants variables ,binding))
+                (taken (logior set (pack-mask ,binding)))
+                (,allowed (allowed-faces ,memory ,binding ,filters)))
+           ;; A variable may have taken a face that the clause names: no list of distinct faces.
+           (when (and (= (logcount set) count) (plusp ,allowed))
+             (do-facts (,fact ,memory index)
+               (let ((,left (logandc2 (pack-mask ,fact) set)))
+                 ;; What the fact has of the faces taken is what the clause asks for.
+                 (when (and (= set (logand taken ,fact)) (logtest ,left ,allowed))
+                   ,@body)))))))))
+
 (declaim (inline first-face))
 (defun first-face (fact set)
   "Return the first face of the list FACT that is in SET, which holds one of them at least."
@@ -303,55 +323,31 @@ of those that are faces, and the variables."
 (defun compile-walk-for-two (clause unbound filters next)
   "Return a matcher that meets CLAUSE, of which the two variables UNBOUND are not bound; they have
 FILTERS, two."
-  (multiple-value-bind (constants variables count) (required-terms clause unbound)
-    (destructuring-bind ((place1 place2) (filters1 filters2) index twins)
-        (list unbound filters (predicate-index (clause-predicate clause))
-              (exchangeable-p unbound))
-      (declare (type (integer 0 5) place1 place2) (type filters filters1 filters2)
-               (function next) (fixnum count) (type (unsigned-byte 24) index))
-      (lambda (memory binding)
-        (declare (type memory memory) (type packed binding))
-        (let* ((set (face-set constants variables binding))
-               (taken (logior set (pack-mask binding)))
-               (allowed (allowed-faces memory binding filters1)))
-          (flet ((give (face1 face2)
-                   (when (logbitp face1 allowed)
-                     (let ((binding (pack-with binding place1 face1)))
-                       (when (logbitp face2 (allowed-faces memory binding filters2))
-                         (funcall next memory (pack-with binding place2 face2)))))))
-            (declare (inline give))
-            ;; A variable may have taken a face that the clause names: no list of distinct faces.
-            (when (and (= (logcount set) count) (plusp allowed))
-              (do-facts (fact memory index)
-                (let ((left (logandc2 (pack-mask fact) set)))
-                  ;; What the fact has of the faces taken is what the clause asks for.
-                  (when (and (= set (logand taken fact)) (logtest left allowed))
-                    (let* ((face1 (first-face fact left))
-                           (face2 (only-face (logandc2 left (ash 1 face1)))))
-                      (give face1 face2)
-                      (unless twins
-                        (give face2 face1)))))))))))))
+  (destructuring-bind ((place1 place2) (filters1 filters2)) (list unbound filters)
+    (declare (type (integer 0 5) place1 place2) (type filters filters1 filters2) (function next))
+    (let ((twins (exchangeable-p unbound)))
+      (do-open-facts (fact left allowed) (clause unbound filters1) (memory binding)
+        (flet ((give (face1 face2)
+                 (when (logbitp face1 allowed)
+                   (let ((binding (pack-with binding place1 face1)))
+                     (when (logbitp face2 (allowed-faces memory binding filters2))
+                       (funcall next memory (pack-with binding place2 face2)))))))
+          (declare (inline give))
+          (let* ((face1 (first-face fact left))
+                 (face2 (only-face (logandc2 left (ash 1 face1)))))
+            (give face1 face2)
+            (unless twins
+              (give face2 face1))))))))
 
 (defun compile-walk-for-several (clause unbound filters next)
   "Return a matcher that meets CLAUSE, of which the variables UNBOUND are not bound; they have
 FILTERS, a list."
-  (multiple-value-bind (constants variables count) (required-terms clause unbound)
-    (let* ((index (predicate-index (clause-predicate clause)))
-           (filter (first filters))
-           (places (compile-places unbound (rest filters) next)))
-      (declare (function places) (type filters filter) (fixnum count))
-      (lambda (memory binding)
-        (declare (type memory memory) (type packed binding))
-        (let* ((set (face-set constants variables binding))
-               (taken (logior set (pack-mask binding)))
-               (allowed (allowed-faces memory binding filter)))
-          ;; A variable may have taken a face that the clause names: no list of distinct faces.
-          (when (and (= (logcount set) count) (plusp allowed))
-            (do-facts (fact memory index)
-              (let ((left (logandc2 (pack-mask fact) set)))
-                ;; What the fact has of the faces taken is what the clause asks for.
-                (when (and (= set (logand taken fact)) (logtest left allowed))
-                  (funcall places memory binding fact left allowed))))))))))
+  (destructuring-bind (filters1 . others) filters
+    (declare (type filters filters1))
+    (let ((places (compile-places unbound others next)))
+      (declare (function places))
+      (do-open-facts (fact left allowed) (clause unbound filters1) (memory binding)
+        (funcall places memory binding fact left allowed)))))
 
 (defun compile-places (variables filters next)
   "Return a function of a memory, a binding, a fact, the set of its faces that are left, as many as
