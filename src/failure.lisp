@@ -227,11 +227,13 @@ it."
                         (reverse +steps+)))
          (attempt (new-attempt plan))
          (best nil) (least nil))
-    (dolist (candidate candidates best)
+    (dolist (candidate candidates)
       (when (eq step (candidate-outcome candidate))
         (let ((shortfall (shortfall candidate plan attempt least)))
           (when (or (null least) (< shortfall (- least +tie+)))
-            (setf best candidate least shortfall)))))))
+            (setf best candidate least shortfall)))))
+    (give-back attempt (knowledge-graspbase (plan-knowledge plan)))
+    best))
 
 (defun plan-reason (plan)
   "Return why the box of PLAN can't be grasped, a string: what the rule said, or the nearest miss.
