@@ -82,6 +82,7 @@
                              (:file "surfaces")
                              (:file "memory")
                              (:file "rulebase")
+                             (:file "watches")
                              (:file "match")
                              (:file "chainer")
                              (:file "observe")

@@ -231,9 +231,9 @@ BLOCKS, for a negation, the derivations of the facts that contradict it under ea
 (defun memory-before (plan index)
   "Return the memory of PLAN as it was when the rule with INDEX was tried, and the STOP that ended
 the run before it, or NIL."
-  (multiple-value-bind (attempt memory)
-      (start-plan (plan-box plan) (plan-knowledge plan) (plan-gamma plan))
-    (declare (ignore attempt))
+  (let* ((knowledge (plan-knowledge plan))
+         (memory (prepare-memory (new-memory knowledge) (plan-box plan) knowledge
+                                 (plan-gamma plan))))
     (values memory
             (run-observed (plan-rulebase plan) memory (constantly nil) :end index))))
 

@@ -202,11 +202,10 @@ does, or if it is no less than LEAST, unless that is NIL."
                              (closing-friction grasp registers)))))
     (if needed (- 1 (/ u needed)) 1)))
 
-(defun shortfall (candidate plan attempt least)
-  "Return by how much CANDIDATE of PLAN missed the step that it failed: 0 to 1, relative; 1 where
-that can't be said, or if it is no less than LEAST.  ATTEMPT, at the box of PLAN, is used to replay
-it."
-  (let ((attempt (replay candidate plan attempt)))
+(defun shortfall (candidate attempt least)
+  "Return by how much CANDIDATE missed the step that it failed: 0 to 1, relative; 1 where that can't
+be said, or if it is no less than LEAST.  ATTEMPT, at its box, is used to replay it."
+  (let ((attempt (replay candidate attempt)))
     (case (candidate-outcome candidate)
       (:conditions
        (let ((node (failing-condition candidate attempt)))
@@ -225,15 +224,13 @@ it."
   "Return the one of CANDIDATES of PLAN that got farthest; of several, the one that missed by least."
   (let* ((step (find-if (lambda (step) (find step candidates :key #'candidate-outcome))
                         (reverse +steps+)))
-         (attempt (new-attempt plan))
          (best nil) (least nil))
-    (dolist (candidate candidates)
-      (when (eq step (candidate-outcome candidate))
-        (let ((shortfall (shortfall candidate plan attempt least)))
-          (when (or (null least) (< shortfall (- least +tie+)))
-            (setf best candidate least shortfall)))))
-    (give-back attempt (knowledge-graspbase (plan-knowledge plan)))
-    best))
+    (with-attempt (attempt plan)
+      (dolist (candidate candidates best)
+        (when (eq step (candidate-outcome candidate))
+          (let ((shortfall (shortfall candidate attempt least)))
+            (when (or (null least) (< shortfall (- least +tie+)))
+              (setf best candidate least shortfall))))))))
 
 (defun plan-reason (plan)
   "Return why the box of PLAN can't be grasped, a string: what the rule said, or the nearest miss.

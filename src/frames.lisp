@@ -13,12 +13,13 @@
   (and (namep name) (position (symbol-name name) +slots+ :test #'string=)))
 
 (defstruct matching
-  "FACES holds the box face of each slot; AXES which box axis (0 to 2) each of N O A lies along;
-SIGNS 1 if it points the same way, -1 if not."
+  "FACES holds the box face of each slot; AXES, six, which axis of the box frame (0 to 5, see
+AXIS-NAME) is that along, or about, each of N O A; SIGNS 1 where N, O, A points the way that its box
+axis does, -1 where it does not."
   (index 0 :type fixnum)
   (faces nil :type simple-vector)
-  (axes nil :type simple-vector)
-  (signs nil :type simple-vector))
+  (axes nil :type (simple-array (unsigned-byte 8) (6)))
+  (signs nil :type (simple-array double-float (3))))
 
 (defun permutation-sign (axes)
   "Return 1 if the three AXES are an even permutation of 0 1 2, else -1."
@@ -31,6 +32,15 @@ SIGNS 1 if it points the same way, -1 if not."
                   (permutation-sign (list (surface-axis n1) axis (surface-axis a1))))))
     (find-if (lambda (face) (and (= (surface-axis face) axis) (= (surface-sign face) sign)))
              '(0 1 2 3 4 5))))
+
+(defun box-axes (faces)
+  "Return the axes of the box frame along, then about which FACES, those of N1 O1 A1, lie."
+  (coerce (append (mapcar #'surface-axis faces)
+                  (loop for face in faces collect (+ 3 (surface-axis face))))
+          '(simple-array (unsigned-byte 8) (6))))
+
+(defun box-signs (faces)
+  (map '(simple-array double-float (3)) (lambda (face) (float (surface-sign face) 1d0)) faces))
 
 (defun all-matchings ()
   "Return the 24 matchings in the order in which TRY enumerates them: N1, then A1, each in the
@@ -47,8 +57,8 @@ order of the faces; O follows."
                                                                  collect face
                                                                  collect (opposite face))
                                                            'simple-vector)
-                                            :axes (map 'simple-vector #'surface-axis firsts)
-                                            :signs (map 'simple-vector #'surface-sign firsts)))))
+                                            :axes (box-axes firsts)
+                                            :signs (box-signs firsts)))))
             'simple-vector)))
 
 (defparameter +matchings+ (all-matchings)

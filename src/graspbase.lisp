@@ -4,17 +4,21 @@
 
 (defstruct grasp
   "A grasp mode.  USED is the list of the slots that it uses, PALM the slot that the palm faces,
-CONTACTS a list of (SLOT P Q), P and Q being registers.  The other parts are programs (see emit).
-VALID holds, for each box face, the set of the matchings that are possible if that face is
-constrained; SAME, for each matching, the set of those that are the same grasp, itself included."
+CONTACTS a list of (SLOT P Q), P and Q being registers; PLACES holds the same as axes (0 to 2) and
+registers in turn, without the axes that the faces are normal to.  The other parts are programs (see
+emit).
+USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
+SAME, for each matching, the set of those that are the same grasp, itself included."
   (name "" :type string) form file line (comment '()) (index 0 :type fixnum)
   (used '() :type list) (palm 0 :type fixnum)
   (conditions-node nil) (conditions nil :type (or null program))
   (offset nil :type (or null program))
   (positions nil :type (or null program)) (contacts '() :type list)
+  (places nil :type register-vector)
   (wrench nil :type (or null program))
   (twist nil :type (or null program))
-  (valid (make-array 6 :element-type '(unsigned-byte 24)) :type (simple-array (unsigned-byte 24) (6)))
+  (usable (make-array 64 :element-type '(unsigned-byte 24))
+   :type (simple-array (unsigned-byte 24) (64)))
   (same (make-array 24 :element-type '(unsigned-byte 24))
    :type (simple-array (unsigned-byte 24) (24))))
 
@@ -24,12 +28,11 @@ constrained; SAME, for each matching, the set of those that are the same grasp, 
 
 (defstruct graspbase
   "The gripper (an alist from name to double), the grasps, and the registers that their programs
-start from.  SPARE holds attempts to be used again; it alone changes (see MAKE-ATTEMPT)."
+start from."
   (gripper '() :type list)
   (grasps '() :type list)
   (broken '() :type list)               ; names of grasps that were left out
-  (registers (make-array +inputs-end+ :element-type 'double-float) :type registers)
-  (spare '() :type list))
+  (registers (make-array +inputs-end+ :element-type 'double-float) :type registers))
 
 (defun find-grasp (graspbase name)
   "Return the grasp of GRASPBASE that has NAME, or NIL."
@@ -263,12 +266,23 @@ after TURN as far as the paper's index can tell, which takes the lesser of two d
                            :initial-value (ash 1 (matching-index matching)))))
     sets))
 
-(defun valid-matchings (used)
-  "Return, for each box face, the set of the matchings in which none of the slots USED has it."
-  (let ((sets (make-array 6 :element-type '(unsigned-byte 24) :initial-element +all-matchings+)))
-    (dotimes (face 6 sets)
-      (dolist (slot used)
-        (setf (aref sets face) (logandc2 (aref sets face) (aref +matchings-with+ slot face)))))))
+(defun usable-matchings (used)
+  "Return, for each set of box faces, the set of the matchings in which none of the slots USED has one
+of them."
+  (let ((sets (make-array 64 :element-type '(unsigned-byte 24) :initial-element +all-matchings+)))
+    (dotimes (faces 64 sets)
+      (dotimes (face 6)
+        (when (logbitp face faces)
+          (dolist (slot used)
+            (setf (aref sets faces)
+                  (logandc2 (aref sets faces) (aref +matchings-with+ slot face)))))))))
+
+(defun contact-places (contacts registers)
+  "Return the PLACES of a grasp with CONTACTS, whose positions will be in REGISTERS, two for each."
+  (coerce (loop for (slot) in contacts
+                append (loop for axis in (remove (floor slot 2) '(0 1 2))
+                             collect axis collect (pop registers)))
+          'register-vector))
 
 (defun finish-grasp (draft layout)
   "Return the grasp of DRAFT, its forms emitted for LAYOUT."
@@ -289,12 +303,13 @@ after TURN as far as the paper's index can tell, which takes the lesser of two d
               :conditions (emit-test layout (draft-conditions draft))
               :offset (six (draft-offset draft))
               :positions positions
+              :places (contact-places contacts places)
               :contacts (loop for slot in fingers
                               for (p q) on places by #'cddr
                               collect (list slot p q))
               :wrench (six (draft-wrench draft))
               :twist (six (draft-twist draft))
-              :valid (valid-matchings (draft-used draft))
+              :usable (usable-matchings (draft-used draft))
               :same (same-matchings (draft-used draft) fingers))
         (release-registers layout)))))
 

@@ -3,8 +3,9 @@
 (in-package :supergrip)
 
 (defstruct (knowledge (:constructor %make-knowledge))
-  "Rules and grasps, ready for use; immutable, but for the grasp base's scratch space.  RULE-FILE and
-GRASP-FILE are what they were made of, WARNINGS the PROBLEMs that did not prevent it."
+  "Rules and grasps, ready for use; immutable, but for SPARE, scratch space that plans give back (see
+START-PLAN).  RULE-FILE and GRASP-FILE are what they were made of, WARNINGS the PROBLEMs that did not
+prevent it."
   (rule-file nil) (grasp-file nil)
   (rulebase nil :type rulebase)
   (graspbase nil :type graspbase)
@@ -13,7 +14,8 @@ GRASP-FILE are what they were made of, WARNINGS the PROBLEMs that did not preven
   (finger-spread 0d0 :type double-float)
   (dist-pinch 0d0 :type double-float)
   (slippery-u 0d0 :type double-float)
-  (warnings '() :type list))
+  (warnings '() :type list)
+  (spare '() :type list))
 
 (defmethod print-object ((knowledge knowledge) stream)
   (print-unreadable-object (knowledge stream :type t)

@@ -17,8 +17,7 @@
 (defstruct (plan (:constructor %make-plan) (:copier nil))
   "What was decided for a box, and all that led to it."
   (box nil :type box) (knowledge nil :type knowledge) (gamma 0.5d0 :type double-float)
-  (stop nil) (best nil) (candidates '() :type list) (log '() :type list)
-  (memory nil :type memory)
+  (stop nil) (best nil) (log '() :type list)
   (alone nil))                          ; the name of the grasp that was tried without rules
 
 (defmethod print-object ((plan plan) stream)
@@ -32,20 +31,18 @@
   "Return the plan for BOX, a box or a description of one (see PARSE-BOX).
 KNOWLEDGE holds the rules and grasps to use, GAMMA from 0 to 1 weighs velocities against forces.
 A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from several threads."
-  (multiple-value-bind (attempt memory) (start-plan box knowledge gamma)
-    (let ((stop (run-rules (knowledge-rulebase knowledge) memory)))
-      (finish-plan attempt memory knowledge stop))))
+  (let ((memory (start-plan box knowledge gamma)))
+    (finish-plan memory knowledge (run-rules (knowledge-rulebase knowledge) memory))))
 
 (defun try-grasp (name box &key (knowledge *knowledge*) (gamma *gamma*))
   "Return a plan for BOX in which no rule has run: the grasp NAME, a string or a symbol, was tried
 in all matchings that use no constrained face, equivalent ones once.  Other arguments as for PLAN."
-  (multiple-value-bind (attempt memory) (start-plan box knowledge gamma)
-    (let ((grasp (find-grasp (knowledge-graspbase knowledge) (string name))))
-      (unless grasp
-        (error 'no-grasp-error :name name :knowledge knowledge))
-      (try-matchings attempt grasp +all-matchings+
-                     (lambda (candidate) (push candidate (memory-log memory))))
-      (finish-plan attempt memory knowledge nil (grasp-name grasp)))))
+  (let ((grasp (find-grasp (knowledge-graspbase knowledge) (string name)))
+        (memory (start-plan box knowledge gamma)))
+    (unless grasp
+      (error 'no-grasp-error :name name :knowledge knowledge))
+    (try-matchings memory grasp +all-matchings+)
+    (finish-plan memory knowledge nil (grasp-name grasp))))
 
 (define-condition no-grasp-error (supergrip-error)
   ((name :initarg :name :reader no-grasp-error-name)
@@ -58,29 +55,53 @@ in all matchings that use no constrained face, equivalent ones once.  Other argu
                        (suggestion (string-upcase name) known) known))))
   (:documentation "A grasp was named that the database lacks."))
 
-(defun start-plan (box knowledge gamma)
-  "Return an attempt at BOX, and a memory that holds the preliminary assertions."
-  (let* ((box (if (box-p box) box (parse-box box)))
-         (attempt (make-attempt box (knowledge-graspbase knowledge) (check-gamma gamma)))
-         (memory (make-memory (knowledge-predicates knowledge) attempt)))
-    (assert-box memory (knowledge-predicates knowledge) box
-                (knowledge-finger-width knowledge) (knowledge-finger-spread knowledge)
-                (knowledge-dist-pinch knowledge) (knowledge-slippery-u knowledge))
-    (values attempt memory)))
+(defun new-memory (knowledge)
+  "Return a memory for the rules of KNOWLEDGE, whose client is an attempt with its grasps."
+  (make-memory (knowledge-rulebase knowledge) (make-attempt (knowledge-graspbase knowledge))))
 
-(defun finish-plan (attempt memory knowledge stop &optional alone)
-  "Return the plan that ATTEMPT and MEMORY hold, of the grasp ALONE if no rule has run.
-Rules that end without KEEP or CANT keep the best.  ATTEMPT is given back."
-  (let ((log (nreverse (memory-log memory))))
-    (setf (memory-client memory) nil
-          (memory-log memory) '())
+(defun prepare-memory (memory box knowledge gamma)
+  "Make MEMORY, an empty one, ready for a plan for BOX: it holds the preliminary assertions, and its
+attempt has tried nothing yet.  Return it."
+  (start-attempt (memory-client memory) box gamma)
+  (assert-box memory (knowledge-predicates knowledge) box
+              (knowledge-finger-width knowledge) (knowledge-finger-spread knowledge)
+              (knowledge-dist-pinch knowledge) (knowledge-slippery-u knowledge))
+  memory)
+
+(defun start-plan (box knowledge gamma)
+  "Return a memory ready for a plan for BOX: one that another plan gave back, or a new one."
+  (let ((box (if (box-p box) box (parse-box box)))
+        (gamma (check-gamma gamma)))
+    (prepare-memory (or (take-from (knowledge-spare knowledge)) (new-memory knowledge))
+                    box knowledge gamma)))
+
+(defun give-back (memory knowledge)
+  "Let another plan use MEMORY."
+  (clear-memory memory (knowledge-rulebase knowledge))
+  (setf (attempt-box (memory-client memory)) nil
+        (attempt-best (memory-client memory)) nil)
+  (give-to (knowledge-spare knowledge) memory))
+
+(defun finish-plan (memory knowledge stop &optional alone)
+  "Return the plan that MEMORY holds, of the grasp ALONE if no rule has run, and give MEMORY back.
+Rules that end without KEEP or CANT keep the best."
+  (let ((attempt (memory-client memory)))
+    (declare (type attempt attempt))
     (prog1 (%make-plan :box (attempt-box attempt) :knowledge knowledge
                        :gamma (attempt-gamma attempt) :stop stop :alone alone
                        :best (and (not (and stop (eq (stop-verdict stop) :cant)))
                                   (attempt-best attempt))
-                       :candidates (nreverse (attempt-candidates attempt))
-                       :log log :memory memory)
-      (give-back attempt (knowledge-graspbase knowledge)))))
+                       :log (nreverse (memory-log memory)))
+      (give-back memory knowledge))))
+
+(defun plan-memory (plan)
+  "Return a memory of all that is known at the end of PLAN: its rules run again."
+  (let* ((knowledge (plan-knowledge plan))
+         (memory (prepare-memory (new-memory knowledge) (plan-box plan) knowledge
+                                 (plan-gamma plan))))
+    (unless (plan-alone plan)
+      (run-rules (knowledge-rulebase knowledge) memory))
+    memory))
 
 (defun check-gamma (gamma)
   (let ((number (and (realp gamma) (as-double gamma))))
@@ -98,6 +119,10 @@ Rules that end without KEEP or CANT keep the best.  ATTEMPT is given back."
 (defun plan-verdict (plan)
   "Return :GRASP if PLAN found a grasp, :CANT if the box can't be grasped."
   (if (plan-best plan) :grasp :cant))
+
+(defun plan-candidates (plan)
+  "Return the candidates of PLAN, in the order in which they were tried."
+  (remove-if-not #'candidate-p (plan-log plan)))
 
 (defun plan-possible (plan)
   "Return the possible grasps of PLAN, candidates, the best first; equals as they were tried."
@@ -186,21 +211,28 @@ the box."
                       (grasp-palm (%candidate-grasp candidate)))
                -1))
 
-(defun new-attempt (plan)
-  "Return an attempt at the box of PLAN with nothing tried yet."
-  (make-attempt (plan-box plan) (knowledge-graspbase (plan-knowledge plan)) (plan-gamma plan)))
-
-(defun replay (candidate plan &optional (attempt (new-attempt plan)))
-  "Take CANDIDATE of PLAN through the steps again, and return ATTEMPT, which holds its figures."
+(defun replay (candidate attempt)
+  "Take CANDIDATE through the steps again, in ATTEMPT, at its box; return ATTEMPT, which holds its
+figures."
   (run-steps attempt (make-candidate (%candidate-grasp candidate)
                                      (%candidate-matching candidate)))
   attempt)
 
+(defmacro with-attempt ((attempt plan) &body body)
+  "Run BODY with ATTEMPT, one at the box of PLAN, which is given back after it."
+  (let ((memory (gensym)) (the-plan (gensym)))
+    `(let* ((,the-plan ,plan)
+            (,memory (start-plan (plan-box ,the-plan) (plan-knowledge ,the-plan)
+                                 (plan-gamma ,the-plan)))
+            (,attempt (memory-client ,memory)))
+       (multiple-value-prog1 (progn ,@body)
+         (give-back ,memory (plan-knowledge ,the-plan))))))
+
 (defmacro with-replay ((attempt candidate plan) &body body)
   "Run BODY with ATTEMPT, which holds the figures of CANDIDATE of PLAN and is given back after it."
-  `(let ((,attempt (replay ,candidate ,plan)))
-     (multiple-value-prog1 (progn ,@body)
-       (give-back ,attempt (knowledge-graspbase (plan-knowledge ,plan))))))
+  `(with-attempt (,attempt ,plan)
+     (replay ,candidate ,attempt)
+     ,@body))
 
 (defun candidate-contacts (candidate plan)
   "Return the contacts of CANDIDATE, which is possible in PLAN: a list of plists with :SURFACE, the
@@ -221,9 +253,9 @@ positions in cm, the normals point inward."
   (let ((position (make-list 3))
         (rest (list p q)))
     (dotimes (i 3 position)
-      (setf (nth (svref (matching-axes matching) i) position)
+      (setf (nth (aref (matching-axes matching) i) position)
             (without-sign-of-zero
-             (* (svref (matching-signs matching) i)
+             (* (aref (matching-signs matching) i)
                 (if (= i (floor slot 2))
                     (* (if (evenp slot) 0.5d0 -0.5d0) (aref (attempt-lengths attempt) i))
                     (+ (aref (attempt-centre attempt) i) (pop rest)))))))))

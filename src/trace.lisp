@@ -122,46 +122,49 @@ rule, CONTINUE to the next break."))
           ((or (>= level 3) (traced-p (candidate-grasp event)))
            (write-failed-candidate event plan stream)))))
 
-(defun trace-observer (plan level stream)
-  "Return an observer of the run of PLAN, under way, that writes to STREAM what LEVEL asks for."
-  (let ((memory (plan-memory plan)))
-    (flet ((full-p (rule needed) (or (>= level needed) (traced-p (rule-name rule)))))
-      (lambda (what &rest arguments)
-        (ecase what
-          (:rule (let ((rule (first arguments)))
-                   (when (or *stepping* (member (rule-name rule) *breaks* :test #'string=))
-                     (pause "before ~a" (form-text (rule-form rule))))
-                   (when (full-p rule 4)
-                     (format stream "  RULE ~a~%" (rule-name rule))
-                     (write-clause-matches rule memory stream))))
-          (:bindings (destructuring-bind (rule bindings) arguments
-                       (when (full-p rule 2)
-                         (format stream "  RULE ~a ~:[does not fire~;fires: ~:*~d binding~:p~]~%"
-                                 (rule-name rule) (and bindings (length bindings))))))
-          (:action (destructuring-bind (rule action binding added) arguments
-                     (when (full-p rule 3)
-                       (format stream "    ~a~@[ with ~a~]~:[~;: nothing left to try~]~%"
-                               (form-text (action-form action))
-                               (let ((text (binding-text rule binding)))
-                                 (and (plusp (length text)) text))
-                               (and (null added) (grasp-p (action-target action)))))
-                     (write-additions added plan level stream)))
-          (:stop nil))))))
+(defun trace-observer (plan memory level stream)
+  "Return an observer of the run of PLAN on MEMORY, under way, that writes to STREAM what LEVEL asks
+for."
+  (flet ((full-p (rule needed) (or (>= level needed) (traced-p (rule-name rule)))))
+    (lambda (what &rest arguments)
+      (ecase what
+        (:rule (let ((rule (first arguments)))
+                 (when (or *stepping* (member (rule-name rule) *breaks* :test #'string=))
+                   (pause "before ~a" (form-text (rule-form rule))))
+                 (when (full-p rule 4)
+                   (format stream "  RULE ~a~%" (rule-name rule))
+                   (write-clause-matches rule memory stream))))
+        (:bindings (destructuring-bind (rule bindings) arguments
+                     (when (full-p rule 2)
+                       (format stream "  RULE ~a ~:[does not fire~;fires: ~:*~d binding~:p~]~%"
+                               (rule-name rule) (and bindings (length bindings))))))
+        (:action (destructuring-bind (rule action binding added) arguments
+                   (when (full-p rule 3)
+                     (format stream "    ~a~@[ with ~a~]~:[~;: nothing left to try~]~%"
+                             (form-text (action-form action))
+                             (let ((text (binding-text rule binding)))
+                               (and (plusp (length text)) text))
+                             (and (null added) (grasp-p (action-target action)))))
+                   (write-additions added plan level stream)))
+        (:stop nil)))))
 
 (defun observed-plan (box knowledge gamma make-observer)
-  "Return the plan for BOX; its run is watched by what MAKE-OBSERVER returns for the unfinished plan."
-  (multiple-value-bind (attempt memory) (start-plan box knowledge gamma)
-    (let* ((unfinished (%make-plan :box (attempt-box attempt) :knowledge knowledge
-                                   :gamma (attempt-gamma attempt) :memory memory))
-           (stop (run-observed (knowledge-rulebase knowledge) memory
-                               (funcall make-observer unfinished))))
-      (finish-plan attempt memory knowledge stop))))
+  "Return the plan for BOX; its run is watched by what MAKE-OBSERVER returns for the unfinished plan
+and the memory that the rules run on."
+  (let* ((memory (start-plan box knowledge gamma))
+         (attempt (memory-client memory))
+         (unfinished (%make-plan :box (attempt-box attempt) :knowledge knowledge
+                                 :gamma (attempt-gamma attempt))))
+    (finish-plan memory knowledge
+                 (run-observed (knowledge-rulebase knowledge) memory
+                               (funcall make-observer unfinished memory)))))
 
 (defun traced-plan (box knowledge gamma level step stream)
   "Return the plan for BOX, writing to STREAM what LEVEL and the traced names ask for as it comes."
   (let* ((*stepping* step)
          (plan (observed-plan box knowledge gamma
-                              (lambda (plan) (trace-observer plan level stream)))))
+                              (lambda (plan memory)
+                                (trace-observer plan memory level stream)))))
     (write-verdict plan stream)
     (format stream "--END--~%")
     plan))
@@ -175,12 +178,12 @@ its bindings; FACTS what it added."
   (let* ((plan (need-plan plan))
          (counts '()))
     (observed-plan (plan-box plan) (plan-knowledge plan) (plan-gamma plan)
-                   (lambda (unfinished)
+                   (lambda (unfinished memory)
+                     (declare (ignore unfinished))
                      (lambda (what &rest arguments)
                        (ecase what
                          (:rule (push (list (rule-name (first arguments))
-                                            (count-matches (first arguments)
-                                                           (plan-memory unfinished))
+                                            (count-matches (first arguments) memory)
                                             0 0)
                                       counts))
                          (:bindings (setf (third (first counts)) (length (second arguments))))

@@ -23,39 +23,33 @@
 
 (defstruct (attempt (:constructor %make-attempt (registers tried)))
   "All that trying grasps on one box needs and leaves: the registers, what was tried of each grasp
-(a set of matchings), and the candidates, the latest first.  The arrays are the current
-candidate's, in the box frame."
+(a set of matchings), and the BEST candidate.  The arrays are the current candidate's, in the box
+frame."
   (box nil :type (or null box)) (gamma 0.5d0 :type double-float)
   (registers nil :type registers)
   (tried nil :type (simple-array (unsigned-byte 24) (*)))
-  (candidates '() :type list) (best nil)
+  (best nil)
   (lengths (make-three) :type three) (centre (make-three) :type three)
   (offset (make-three) :type three)
   (wrench (make-six) :type six) (twist (make-six) :type six)
   (load (make-six) :type six) (need (make-six) :type six))
 
-(defun make-attempt (box graspbase gamma)
-  "Return an attempt at BOX with nothing tried yet: one that another plan gave back, or a new one."
-  (let ((attempt (or (take-from (graspbase-spare graspbase))
-                     (%make-attempt (copy-seq (graspbase-registers graspbase))
-                                    (make-array (length (graspbase-grasps graspbase))
-                                                :element-type '(unsigned-byte 24)
-                                                :initial-element 0)))))
-    (declare (type attempt attempt) (type box box))
-    (setf (attempt-box attempt) box
-          (attempt-gamma attempt) gamma
-          (aref (attempt-registers attempt) +u+) (%box-u box)
-          (aref (attempt-registers attempt) +v+) (%box-v box))
-    attempt))
+(defun make-attempt (graspbase)
+  "Return an attempt with the grasps of GRASPBASE, at no box yet."
+  (%make-attempt (copy-seq (graspbase-registers graspbase))
+                 (make-array (length (graspbase-grasps graspbase))
+                             :element-type '(unsigned-byte 24))))
 
-(defun give-back (attempt graspbase)
-  "Let another plan use ATTEMPT, which is at a box no more."
-  (declare (type attempt attempt))
+(defun start-attempt (attempt box gamma)
+  "Make ATTEMPT, which may have been used, one at BOX with nothing tried yet.  Return it."
+  (declare (type attempt attempt) (type box box))
+  (setf (attempt-box attempt) box
+        (attempt-gamma attempt) gamma
+        (attempt-best attempt) nil
+        (aref (attempt-registers attempt) +u+) (%box-u box)
+        (aref (attempt-registers attempt) +v+) (%box-v box))
   (fill (attempt-tried attempt) 0)
-  (setf (attempt-box attempt) nil
-        (attempt-candidates attempt) '()
-        (attempt-best attempt) nil)
-  (give-to (graspbase-spare graspbase) attempt))
+  attempt)
 
 ;;; The steps.  Each returns true if the candidate passes.
 
@@ -67,7 +61,7 @@ candidate's, in the box frame."
          (size (%box-size box))
          (constrained (%box-constrained box)))
     (dotimes (i 3)
-      (let ((length (aref size (the (integer 0 2) (svref (matching-axes matching) i)))))
+      (let ((length (aref size (aref (matching-axes matching) i))))
         (setf (aref (attempt-lengths attempt) i) length
               (aref registers (+ +distances+ i)) length)))
     (dotimes (slot 6)
@@ -101,12 +95,12 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
         (centre (attempt-centre attempt))
         (lengths (attempt-lengths attempt)))
     (execute (grasp-positions grasp) registers)
-    (loop for (slot p q) of-type (fixnum register register) in (grasp-contacts grasp)
-          always (let* ((axis (ash slot -1))
-                        (i (if (= axis 0) 1 0))
-                        (j (if (= axis 2) 1 2)))
-                   (and (inside-p (+ (aref centre i) (aref registers p)) (aref lengths i))
-                        (inside-p (+ (aref centre j) (aref registers q)) (aref lengths j)))))))
+    (loop with places = (grasp-places grasp)
+          for place from 0 below (length places) by 2
+          always (let ((axis (aref places place))
+                       (register (aref places (1+ place))))
+                   (inside-p (+ (aref centre axis) (aref registers register))
+                             (aref lengths axis))))))
 
 (defun exert (attempt grasp matching)
   "Put wrench and twist, rotated to X Y Z, into the attempt.  True if the grasp is closed."
@@ -117,11 +111,7 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
              (dotimes (i 6 t)
                (let ((entry (aref registers (aref results i))))
                  (unless (> entry least) (return nil))
-                 (setf (aref out (if (< i 3)
-                                     (the (integer 0 2) (svref (matching-axes matching) i))
-                                     (+ 3 (the (integer 0 2)
-                                               (svref (matching-axes matching) (- i 3))))))
-                       entry)))))
+                 (setf (aref out (aref (matching-axes matching) i)) entry)))))
       (and (rotate (run-program (grasp-wrench grasp) registers) (attempt-wrench attempt) 0d0)
            (rotate (run-program (grasp-twist grasp) registers) (attempt-twist attempt) -1d-300)))))
 
@@ -130,9 +120,8 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
   (declare (type attempt attempt) (type matching matching) (type candidate candidate))
   (let ((offset (attempt-offset attempt)))
     (dotimes (i 3)
-      (setf (aref offset (the (integer 0 2) (svref (matching-axes matching) i)))
-            (* (the (integer -1 1) (svref (matching-signs matching) i))
-               (aref (attempt-centre attempt) i))))
+      (setf (aref offset (aref (matching-axes matching) i))
+            (* (aref (matching-signs matching) i) (aref (attempt-centre attempt) i))))
     (setf (%candidate-x candidate) (aref offset 0)
           (%candidate-y candidate) (aref offset 1)
           (%candidate-z candidate) (aref offset 2))
@@ -199,7 +188,6 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
 (defun try-matching (attempt grasp matching)
   "Try GRASP in MATCHING, and return the candidate."
   (let ((candidate (make-candidate grasp matching)))
-    (push candidate (attempt-candidates attempt))
     (run-steps attempt candidate)
     (when (eq (%candidate-outcome candidate) :possible)
       (let ((best (attempt-best attempt)))
@@ -208,44 +196,50 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
           (setf (attempt-best attempt) candidate))))
     candidate))
 
-(defun usable-matchings (grasp constrained)
-  "Return the set of the matchings in which GRASP uses none of the faces CONSTRAINED, a set."
-  (declare (type (unsigned-byte 6) constrained))
-  (let ((usable +all-matchings+))
-    (declare (type matching-set usable))
-    (dotimes (face 6 usable)
-      (when (logbitp face constrained)
-        (setf usable (logand usable (aref (grasp-valid grasp) face)))))))
-
-(defun try-matchings (attempt grasp suggested note)
-  "Try GRASP in those matchings of the set SUGGESTED that use no constrained face, and that
-neither they nor their equivalents were tried before.  Calls NOTE with each candidate."
-  (declare (type attempt attempt) (type grasp grasp) (type matching-set suggested)
-           (function note))
-  (let ((open (logand suggested (usable-matchings grasp (%box-constrained (attempt-box attempt))))))
-    (declare (type matching-set open))
+(defun try-matchings (memory grasp suggested)
+  "Try GRASP on the box of the attempt that is the client of MEMORY, in those matchings of the set
+SUGGESTED that use no constrained face, and that neither they nor their equivalents were tried
+before.  The log of MEMORY gets the candidates."
+  (declare (type grasp grasp) (type matching-set suggested))
+  (let* ((attempt (memory-client memory))
+         (tried (attempt-tried attempt))
+         (index (grasp-index grasp))
+         (open (logand suggested
+                       (aref (grasp-usable grasp) (%box-constrained (attempt-box attempt))))))
+    (declare (type attempt attempt) (type matching-set open))
     (loop
-      (let ((left (logandc2 open (aref (attempt-tried attempt) (grasp-index grasp)))))
+      (let ((left (logandc2 open (aref tried index))))
         (declare (type matching-set left))
         (when (zerop left) (return))
-        (let ((index (1- (integer-length (logand left (- left))))))
-          (setf (aref (attempt-tried attempt) (grasp-index grasp))
-                (logior (aref (attempt-tried attempt) (grasp-index grasp))
-                        (aref (grasp-same grasp) index)))
-          (funcall note (try-matching attempt grasp (svref +matchings+ index))))))))
+        (let ((matching (1- (integer-length (logand left (- left))))))
+          (setf (aref tried index) (logior (aref tried index) (aref (grasp-same grasp) matching)))
+          (push (try-matching attempt grasp (svref +matchings+ matching))
+                (memory-log memory)))))))
 
 ;;; The actions
 
-(defun suggested-matchings (terms binding)
-  "Return the set of the matchings that give the slots the faces that TERMS, six of them or NIL
-for any, stand for under BINDING."
-  (let ((set +all-matchings+))
-    (declare (type matching-set set))
-    (loop for term in terms
-          for slot of-type (integer 0 5) from 0
-          when term
-            do (setf set (logand set (aref +matchings-with+ slot (term-value term binding)))))
-    set))
+(defun constant-matchings (terms)
+  "Return the set of the matchings that give the slots the faces among TERMS, six of them, NIL for
+any."
+  (reduce #'logand (loop for term in terms
+                         for slot from 0
+                         when (and term (not (term-variable-p term)))
+                           collect (aref +matchings-with+ slot (term-value term 0)))
+          :initial-value +all-matchings+))
+
+(defun variable-slots (terms)
+  "Return a list of (SLOT . TERM) for those of TERMS, six, that are variables."
+  (loop for term in terms
+        for slot from 0
+        when (and term (term-variable-p term)) collect (cons slot term)))
+
+(defun suggested-matchings (set slots binding)
+  "Return those of the matchings SET that give SLOTS, a list of (SLOT . VARIABLE), the faces that the
+variables have under BINDING."
+  (declare (type matching-set set))
+  (loop for (slot . variable) of-type ((integer 0 5) . (integer 0 5)) in slots
+        do (setf set (logand set (aref +matchings-with+ slot (term-value variable binding)))))
+  set)
 
 (defun parse-suggestion (operands action)
   "Return the terms of the suggested matching in OPERANDS, NIL for each that is ?; or complain, and
@@ -273,10 +267,11 @@ return true as the second value."
       (setf (action-target action) grasp
             (action-terms action) terms
             (action-function action)
-            (lambda (memory binding)
-              (try-matchings (memory-client memory) grasp (suggested-matchings terms binding)
-                             (lambda (candidate) (push candidate (memory-log memory))))
-              nil)))))
+            (let ((set (constant-matchings terms))
+                  (slots (variable-slots terms)))
+              (lambda (memory binding)
+                (try-matchings memory grasp (suggested-matchings set slots binding))
+                nil))))))
 
 (define-action :try (action rulebase)
   (let* ((name (first (action-operands action)))

@@ -20,16 +20,19 @@
 Returns what the rules said, a list of strings, and the stop."
   (multiple-value-bind (rulebase problems) (build text)
     (assert (null problems) () "~{~a~%~}" problems)
-    (let ((memory (supergrip-chainer:make-memory (supergrip-chainer:rulebase-predicates rulebase))))
-      (loop for (word . faces) in facts
-            do (supergrip-chainer:remember
-                memory
-                (supergrip-chainer:find-predicate rulebase (list (symbol-name word)))
-                (supergrip-chainer:pack (mapcar #'supergrip-chainer:surface-index faces))))
-      (let ((stop (supergrip-chainer:run-rules rulebase memory)))
-        (values (loop for event in (reverse (supergrip-chainer:memory-log memory))
-                      collect (event-text event rulebase))
-                stop)))))
+    (run-on-facts rulebase (supergrip-chainer:make-memory rulebase) facts)))
+
+(defun run-on-facts (rulebase memory facts)
+  "Run RULEBASE on MEMORY, an empty one, and FACTS.  Returns what RUN-TEXT does."
+  (loop for (word . faces) in facts
+        do (supergrip-chainer:remember
+            memory
+            (supergrip-chainer:find-predicate rulebase (list (symbol-name word)))
+            (supergrip-chainer:pack (mapcar #'supergrip-chainer:surface-index faces))))
+  (let ((stop (supergrip-chainer:run-rules rulebase memory)))
+    (values (loop for event in (reverse (supergrip-chainer:memory-log memory))
+                  collect (event-text event rulebase))
+            stop)))
 
 (defun event-text (event rulebase)
   (multiple-value-bind (predicate packed) (supergrip-chainer:event-fact event rulebase)
@@ -108,6 +111,47 @@ Returns what the rules said, a list of strings, and the stop."
   (is (equal '("R: TWO")
              (run-text "(RULE R (IF (CONSTRAINED (s1)) (CONSTRAINED (s2))) (THEN (REMEMBER TWO)))"
                        '((constrained z2) (constrained x1))))))
+
+(defparameter *sleepers*
+  "(RULE A (IF (SMALL (s1 s2)) (CONSTRAINED (s1))) (THEN (REMEMBER P (s2))))
+   (RULE B (IF (P (s1)) (OPPOSED (s1 s2))) (THEN (REMEMBER Q (s1 s2))))
+   (RULE C (IF (Q (s1 s2)) (P (s1)) (OPPOSED (s1 s2))) (THEN (REMEMBER R)))
+   (RULE D (IF (R)) (THEN (REMEMBER S)))
+   (RULE E (IF (NOT R)) (THEN (REMEMBER T)))
+   (RULE F (IF (OPPOSED (s1 s2)) (NOT SMALL (s1 s2))) (THEN (REMEMBER U (s1 s2))))"
+  "Rules some of which wake others.")
+
+(defun awake-rules (memory rulebase)
+  (loop for rule across (supergrip-chainer:rulebase-rules rulebase)
+        for bit across (supergrip-chainer::memory-awake memory)
+        when (= bit 1) collect (supergrip-chainer:rule-name rule)))
+
+(test rules-sleep-until-what-they-ask-for-is-known
+  (let* ((rulebase (build *sleepers*))
+         (memory (supergrip-chainer:make-memory rulebase)))
+    (is (equal '("E") (awake-rules memory rulebase)) "it asks for nothing that must be there")
+    (is (equal '("E: T" "F: U Z2 Z1" "F: U Y2 Y1" "F: U X2 X1")
+               (run-on-facts rulebase memory *pairs*)))
+    (is (equal '("E" "F") (awake-rules memory rulebase))
+        "each watches what fewest ask for, not OPPOSED")
+    (supergrip-chainer:clear-memory memory rulebase)
+    (is (equal '("E") (awake-rules memory rulebase)))))
+
+(test a-cleared-memory-is-as-a-new-one
+  (let* ((rulebase (build *sleepers*))
+         (used (supergrip-chainer:make-memory rulebase))
+         (inputs (list (append *pairs* '((small y2 y1) (constrained y2)))
+                       *pairs*
+                       (append *pairs* '((small x2 x1) (constrained x1)))
+                       (append *pairs* '((constrained x1)))
+                       '())))
+    (dolist (facts inputs)
+      (let ((new (supergrip-chainer:make-memory rulebase)))
+        (is (equal (run-on-facts rulebase new facts) (run-on-facts rulebase used facts)))
+        (loop for predicate across (supergrip-chainer:rulebase-predicates rulebase)
+              do (is (equal (supergrip-chainer:facts new predicate)
+                            (supergrip-chainer:facts used predicate)))))
+      (supergrip-chainer:clear-memory used rulebase))))
 
 (test cant-ends-the-run
   (multiple-value-bind (said stop)

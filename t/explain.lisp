@@ -179,16 +179,12 @@
 
 (defun how-fault (box)
   "Return a fact of the plan for BOX that the rules of its tree do not derive from its leaves."
-  (let* ((plan (supergrip::plan box))
-         (rulebase (supergrip::plan-rulebase plan)))
+  (let ((plan (supergrip::plan box)))
     (dolist (fact (plan-facts plan))
       (let ((tree (supergrip:explain-fact fact plan))
-            (memory (supergrip-chainer:make-memory
-                     (supergrip-chainer:rulebase-predicates rulebase)
-                     (supergrip::make-attempt (supergrip:plan-box plan)
-                                              (supergrip::knowledge-graspbase
-                                               (supergrip:plan-knowledge plan))
-                                              0.5d0))))
+            (memory (supergrip::new-memory (supergrip:plan-knowledge plan))))
+        (supergrip::start-attempt (supergrip-chainer:memory-client memory)
+                                  (supergrip:plan-box plan) 0.5d0)
         (dolist (leaf (leaf-facts tree))
           (unless (supergrip-chainer:predicate-given (supergrip:derivation-predicate leaf))
             (return-from how-fault (list fact "a leaf that is no input")))

@@ -63,8 +63,9 @@
                       (list (shipped-form "rules.lisp" "RULE" name))
                       supergrip::+inputs+ :client graspbase)))
          (memory (supergrip-chainer:make-memory
-                  (supergrip-chainer:rulebase-predicates rulebase)
-                  (supergrip::make-attempt (supergrip:parse-box *rule-box*) graspbase 0.5d0))))
+                  rulebase
+                  (supergrip::start-attempt (supergrip::make-attempt graspbase)
+                                            (supergrip:parse-box *rule-box*) 0.5d0))))
     (dolist (fact facts)
       (put-fact fact rulebase memory))
     (let ((stop (supergrip-chainer:run-rules rulebase memory)))
@@ -135,8 +136,8 @@
     (dolist (box (random-boxes 5000 21))
       (let* ((plan (supergrip::observed-plan
                     box supergrip:*knowledge* 0.5d0
-                    (lambda (unfinished)
-                      (declare (ignore unfinished))
+                    (lambda (unfinished memory)
+                      (declare (ignore unfinished memory))
                       (lambda (what &rest arguments)
                         (when (and (eq what :bindings) (second arguments))
                           (pushnew (supergrip-chainer:rule-name (first arguments)) fired

@@ -38,23 +38,59 @@ WORDS what it said, as strings."
 
 ;;; Running
 
+(defun make-memory (rulebase &optional client)
+  "Return an empty memory for the rules of RULEBASE."
+  (let ((count (length (rulebase-predicates rulebase))))
+    (flet ((packs (length)
+             (make-array length :element-type '(unsigned-byte 32) :initial-element 0)))
+      (%make-memory :relations (make-array count :element-type '(unsigned-byte 64)
+                                                 :initial-element 0)
+                    :facts (packs (* +most-facts+ count))
+                    :counts (packs count)
+                    :used (packs count)
+                    :awake (copy-seq (rulebase-awake rulebase))
+                    :wakes (rulebase-wakes rulebase)
+                    :bindings (packs 16)
+                    :client client))))
+
+(defun clear-memory (memory rulebase)
+  "Make MEMORY, one for the rules of RULEBASE, empty again.  It takes time for what was remembered,
+none for other predicates."
+  (declare (type memory memory))
+  (dotimes (i (memory-used-count memory))
+    (let ((index (aref (memory-used memory) i)))
+      (setf (aref (memory-relations memory) index) 0
+            (aref (memory-counts memory) index) 0)))
+  (replace (memory-awake memory) (rulebase-awake rulebase))
+  (setf (memory-used-count memory) 0
+        (memory-log memory) '()))
+
+(declaim (inline run-rule))
+(defun run-rule (rule memory)
+  "Run RULE on MEMORY.  Returns the STOP of the action that ended the run, or NIL."
+  (declare (type memory memory))
+  (let ((count (find-bindings (rule-matcher rule) memory)))
+    (when (plusp count)
+      (dolist (action (rule-actions rule))
+        (let ((function (action-function action))
+              (bindings (memory-bindings memory)))
+          (declare (function function))
+          (dotimes (i (if (action-once action) 1 count))
+            (let ((stop (funcall function memory (aref bindings i))))
+              (when stop
+                (return-from run-rule stop)))))))))
+
 (defun run-rules (rulebase memory)
-  "Run the rules of RULEBASE on MEMORY, in order, each once.
+  "Run the rules of RULEBASE on MEMORY, in order, each once; rules that sleep are passed over.
 All bindings of a rule are found first; then its first action is done for all of them (once, if it
 is the same for all), then its second.  Returns the STOP of the action that ended the run, or NIL."
   (declare (type memory memory))
-  (loop for rule across (rulebase-rules rulebase)
-        do (let ((count (find-bindings (rule-matcher rule) memory)))
-             (when (plusp count)
-               (dolist (action (rule-actions rule))
-                 (let ((function (action-function action))
-                       (bindings (memory-bindings memory)))
-                   (declare (function function))
-                   (dotimes (i (if (action-once action) 1 count))
-                     (let ((stop (funcall function memory (aref bindings i))))
-                       (when stop
-                         (return-from run-rules stop)))))))))
-  nil)
+  (loop with rules = (rulebase-rules rulebase)
+        with awake = (memory-awake memory)
+        for index = (position 1 awake) then (position 1 awake :start (1+ index))
+        while index
+        do (let ((stop (run-rule (svref rules index) memory)))
+             (when stop (return stop)))))
 
 ;;; The two actions of a standard chainer
 

@@ -18,36 +18,31 @@ its rule base.  GIVEN is true if the input provides it."
 ;;; What is remembered of a predicate is kept twice: as bits, to test, and in order, to walk.
 
 (deftype relations () '(simple-array (unsigned-byte 64) (*)))
-(deftype links () '(simple-array (unsigned-byte 62) (*)))
 (deftype packs () '(simple-array (unsigned-byte 32) (*)))
+
+(defconstant +most-facts+ 20
+  "How many facts a predicate can have: there are 20 sets of three faces, and fewer of any other
+number.")
 
 (defstruct (memory (:constructor %make-memory))
   "A working memory.  RELATIONS holds, for each predicate, the bits of what is remembered (see
-FACT-BITS).  FACTS holds the lists as they were remembered, from place 1: a packed list, and above
-it the place of the predicate's next, or 0; ENDS holds the places of each predicate's first and
-last, or 0, and FREE is the first place without one.  BINDINGS holds the FOUND bindings of the rule
-being run.  LOG holds the events of a run, the newest first.  CLIENT is whatever the actions of the
-lower level need."
+FACT-BITS).  FACTS holds the packed lists in the order in which they were remembered, those of each
+predicate from +MOST-FACTS+ times its index on, and COUNTS how many it has.  USED holds the indices
+of the predicates that have facts, USED-COUNT of them.  AWAKE has a bit for each rule that may fire,
+and WAKES, for each predicate, the list of the rules that its first fact wakes (see SET-WATCHES).
+BINDINGS holds the FOUND bindings of the rule being run.  LOG holds the events of a run, the newest
+first.  CLIENT is whatever the actions of the lower level need."
   (relations nil :type relations)
-  (facts nil :type links)
-  (ends nil :type packs)
-  (free 1 :type (unsigned-byte 32))
+  (facts nil :type packs)
+  (counts nil :type packs)
+  (used nil :type packs)
+  (used-count 0 :type fixnum)
+  (awake nil :type simple-bit-vector)
+  (wakes nil :type simple-vector)
   (bindings nil :type packs)
   (found 0 :type fixnum)
   (log '() :type list)
   (client nil))
-
-(defun make-memory (predicates &optional client)
-  "Return an empty memory for PREDICATES, a vector in the order of their indices."
-  (declare (simple-vector predicates))
-  (let ((count (length predicates)))
-    (%make-memory :relations (make-array count :element-type '(unsigned-byte 64)
-                                               :initial-element 0)
-                  :ends (make-array (* 2 count) :element-type '(unsigned-byte 32)
-                                                :initial-element 0)
-                  :facts (make-array 24 :element-type '(unsigned-byte 62))
-                  :bindings (make-array 16 :element-type '(unsigned-byte 32))
-                  :client client)))
 
 (declaim (inline fact-bits known-p))
 (defun fact-bits (arity packed)
@@ -73,56 +68,40 @@ whose number is the set."
   "True if MEMORY holds that PREDICATE is true of the faces of PACKED, in any order."
   (known-p memory (predicate-index predicate) (fact-bits (predicate-arity predicate) packed)))
 
-(declaim (inline link-fact link-next))
-(defun link-fact (link)
-  (declare (type (unsigned-byte 62) link))
-  (ldb (byte 24 0) link))
+(declaim (inline note-use remember))
+(defun note-use (memory index)
+  "Note that the predicate INDEX has its first fact, and wake the rules that wait for it."
+  (declare (type memory memory) (type (unsigned-byte 24) index))
+  (setf (aref (memory-used memory) (memory-used-count memory)) index)
+  (incf (memory-used-count memory))
+  (dolist (rule (svref (memory-wakes memory) index))
+    (setf (sbit (memory-awake memory) rule) 1)))
 
-(defun link-next (link)
-  (declare (type (unsigned-byte 62) link))
-  (ash link -24))
-
-(defun append-fact (memory index packed)
-  "Put PACKED after the last fact of the predicate INDEX."
-  (declare (type memory memory) (type (unsigned-byte 24) index) (type packed packed))
-  (let* ((place (memory-free memory))
-         (ends (memory-ends memory))
-         (last (aref ends (1+ (* 2 index)))))
-    (when (= place (length (memory-facts memory)))
-      (setf (memory-facts memory)
-            (replace (make-array (* 2 place) :element-type '(unsigned-byte 62))
-                     (memory-facts memory))))
-    (let ((facts (memory-facts memory)))
-      (setf (aref facts place) packed)
-      (if (zerop last)
-          (setf (aref ends (* 2 index)) place)
-          (setf (aref facts last) (logior (aref facts last) (ash place 24)))))
-    (setf (aref ends (1+ (* 2 index))) place
-          (memory-free memory) (1+ place))))
-
-(declaim (inline remember))
 (defun remember (memory predicate packed)
   "Put into MEMORY that PREDICATE is true of the faces of PACKED.  True if it was not there."
   (declare (type memory memory) (type predicate predicate) (type packed packed))
-  (let ((index (predicate-index predicate))
-        (bits (fact-bits (predicate-arity predicate) packed)))
+  (let* ((index (predicate-index predicate))
+         (bits (fact-bits (predicate-arity predicate) packed))
+         (count (aref (memory-counts memory) index)))
     (unless (known-p memory index bits)
       (setf (aref (memory-relations memory) index)
-            (logior (aref (memory-relations memory) index) bits))
-      (append-fact memory index packed)
+            (logior (aref (memory-relations memory) index) bits)
+            (aref (memory-facts memory) (+ (* +most-facts+ index) count)) packed
+            (aref (memory-counts memory) index) (1+ count))
+      (when (zerop count)
+        (note-use memory index))
       t)))
 
 (defmacro do-facts ((fact memory index) &body body)
   "Run BODY with FACT each packed list of the predicate INDEX, in the order in which they were
 remembered.  BODY must remember nothing."
-  (let ((facts (gensym)) (place (gensym)) (link (gensym)))
-    `(let ((,facts (memory-facts ,memory))
-           (,place (aref (memory-ends ,memory) (* 2 ,index))))
-       (declare (type (unsigned-byte 38) ,place))
-       (loop until (zerop ,place)
-             do (let* ((,link (aref ,facts ,place))
-                       (,fact (link-fact ,link)))
-                  (setf ,place (link-next ,link))
+  (let ((start (gensym)) (place (gensym)))
+    `(let ((,start (* +most-facts+ ,index)))
+       (declare (type (unsigned-byte 32) ,start))
+       (loop for ,place of-type (unsigned-byte 32)
+               from ,start below (+ ,start (aref (memory-counts ,memory) ,index))
+             do (let ((,fact (aref (memory-facts ,memory) ,place)))
+                  (declare (type packed ,fact))
                   ,@body)))))
 
 (defun facts (memory predicate)

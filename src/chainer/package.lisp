@@ -12,7 +12,7 @@ one generic function.")
    ;; predicates and working memory
    #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
    #:predicate-given
-   #:memory #:make-memory #:memory-client #:memory-log
+   #:memory #:make-memory #:clear-memory #:memory-client #:memory-log
    #:recall #:remember #:facts #:assertions
    ;; rules
    #:rule #:rule-name #:rule-form #:rule-index #:rule-clauses #:rule-actions #:rule-variables

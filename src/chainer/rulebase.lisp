@@ -29,10 +29,12 @@ variables; the place of one is its number."
     (format stream "~a" (rule-name rule))))
 
 (defstruct (rulebase (:constructor %make-rulebase))
-  "Ordered rules and the predicates that they speak of.  CLIENT is what the actions of the lower
-level are compiled against."
+  "Ordered rules and the predicates that they speak of.  AWAKE and WAKES are what SET-WATCHES says.
+CLIENT is what the actions of the lower level are compiled against."
   (rules #() :type simple-vector)
   (predicates #() :type simple-vector)
+  (awake #* :type simple-bit-vector)
+  (wakes #() :type simple-vector)
   (table (make-hash-table :test #'equal))
   (client nil))
 
@@ -195,7 +197,8 @@ wrong in it.  This is where an action is attached: DEFINE-ACTION adds a method."
 
 (defmacro define-action (verb (action rulebase) &body body)
   "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, complains of what
-is wrong, and stores the ACTION-FUNCTION."
+is wrong, and stores the ACTION-FUNCTION.  That must not keep the memory that it is called with,
+which serves other runs, too."
   `(progn
      (setf *action-verbs* (adjoin-last ,(symbol-name verb) *action-verbs*))
      (defmethod compile-action ((verb (eql ,verb)) ,action ,rulebase)
@@ -277,6 +280,7 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
     (number-predicates *rulebase*)
     (loop for rule across (rulebase-rules *rulebase*)
           do (setf (rule-matcher rule) (compile-antecedent rule)))
+    (set-watches *rulebase*)
     *rulebase*))
 
 (defun number-predicates (rulebase)

@@ -311,10 +311,10 @@ needed."
 
 (defun given-facts (plan)
   "Return the facts that were there before any rule of PLAN ran: lists of predicate and faces."
-  (let ((made (mapcar (lambda (fact) (apply #'fact-id (rest fact))) (remembered-facts plan))))
+  (let ((made (mapcar (lambda (fact) (apply #'fact-id (rest fact))) (remembered-facts plan)))
+        (memory (supergrip::plan-memory plan)))
     (loop for predicate across (supergrip-chainer:rulebase-predicates (rulebase-of plan))
-          append (loop for packed in (supergrip-chainer:facts (supergrip::plan-memory plan)
-                                                              predicate)
+          append (loop for packed in (supergrip-chainer:facts memory predicate)
                        unless (member (fact-id predicate packed) made :test #'string=)
                          collect (list predicate packed)))))
 

@@ -54,10 +54,10 @@ a busy machine disturbs least."
            (lambda () (supergrip-oracle:oracle-plan *pencil* *oracle*))))))
 
 (defun rule-figures ()
-  (let ((rulebase (rules-alone (shipped-rules))))
+  (let ((rules (rules-function (rules-alone (shipped-rules)))))
     (measure-together
      '("rule part" "the same by bit code" "the same by the reference engine")
-     (list (lambda () (run-rules-alone rulebase *box*))
+     (list (lambda () (funcall rules *box*))
            (lambda () (bit-rules *box*))
            (oracle-rules-function)))))
 

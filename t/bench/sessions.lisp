@@ -37,38 +37,45 @@
 (defun shipped-rules ()
   (supergrip::data-file-forms (supergrip::read-data-file (project-file "rules.lisp"))))
 
-(defun run-rules-alone (rulebase box)
-  "Run RULEBASE on BOX.  Returns the verdict, and the log, the newest event first."
+(defun rules-function (rulebase)
+  "Return a function of a box that runs RULEBASE on it as PLAN does, in a memory that is used again,
+and returns the verdict and the log, the newest event first."
   (let* ((knowledge supergrip:*knowledge*)
          (predicates (supergrip-chainer:rulebase-predicates rulebase))
-         (memory (supergrip-chainer:make-memory predicates)))
-    (supergrip::assert-box memory predicates box
-                           (supergrip::knowledge-finger-width knowledge)
-                           (supergrip::knowledge-finger-spread knowledge)
-                           (supergrip::knowledge-dist-pinch knowledge)
-                           (supergrip::knowledge-slippery-u knowledge))
-    (let ((stop (supergrip-chainer:run-rules rulebase memory)))
-      (values (and stop (supergrip-chainer:stop-verdict stop))
-              (supergrip-chainer:memory-log memory)))))
+         (memory (supergrip-chainer:make-memory rulebase)))
+    (lambda (box)
+      (supergrip-chainer:clear-memory memory rulebase)
+      (supergrip::assert-box memory predicates box
+                             (supergrip::knowledge-finger-width knowledge)
+                             (supergrip::knowledge-finger-spread knowledge)
+                             (supergrip::knowledge-dist-pinch knowledge)
+                             (supergrip::knowledge-slippery-u knowledge))
+      (let ((stop (supergrip-chainer:run-rules rulebase memory)))
+        (values (and stop (supergrip-chainer:stop-verdict stop))
+                (supergrip-chainer:memory-log memory))))))
 
 ;;; The TRY part, and one form
 
 (defun try-function (plan)
   "Return a function that tries the candidates of PLAN again."
-  (let* ((graspbase (supergrip::knowledge-graspbase (supergrip:plan-knowledge plan)))
+  (let* ((attempt (supergrip::make-attempt
+                   (supergrip::knowledge-graspbase (supergrip:plan-knowledge plan))))
          (tries (loop for candidate in (supergrip:plan-candidates plan)
                       collect (cons (supergrip::%candidate-grasp candidate)
                                     (supergrip::%candidate-matching candidate)))))
     (lambda ()
-      (let ((attempt (supergrip::make-attempt (supergrip:plan-box plan) graspbase 0.5d0)))
-        (loop for (grasp . matching) in tries
-              do (supergrip::try-matching attempt grasp matching))
-        (supergrip::give-back attempt graspbase)))))
+      (supergrip::start-attempt attempt (supergrip:plan-box plan) 0.5d0)
+      (loop for (grasp . matching) in tries
+            do (supergrip::try-matching attempt grasp matching)))))
 
 (defun form-function (plan)
   "Return a function that evaluates the WRENCH of the first candidate of PLAN."
   (let* ((candidate (first (supergrip:plan-candidates plan)))
-         (registers (supergrip::attempt-registers (supergrip::replay candidate plan)))
+         (attempt (supergrip::start-attempt
+                   (supergrip::make-attempt
+                    (supergrip::knowledge-graspbase (supergrip:plan-knowledge plan)))
+                   (supergrip:plan-box plan) 0.5d0))
+         (registers (supergrip::attempt-registers (supergrip::replay candidate attempt)))
          (program (supergrip::grasp-wrench (supergrip::%candidate-grasp candidate))))
     (lambda () (supergrip::execute program registers))))
 
@@ -98,8 +105,8 @@
 
 (defun check-bits (boxes)
   "Signal an error unless the bit code gives the log of the rules on all BOXES."
-  (let ((rulebase (rules-alone (shipped-rules))))
+  (let ((rules (rules-function (rules-alone (shipped-rules)))))
     (dolist (box boxes)
       (unless (equal (multiple-value-list (bit-rules box))
-                     (multiple-value-list (run-rules-alone rulebase box)))
+                     (multiple-value-list (funcall rules box)))
         (error "the bit code and the rules differ on ~a" box)))))
