@@ -42,6 +42,35 @@
                     (first (read-text text)))
                text)))
 
+(defun nearest-p (double exact)
+  "True if no double is nearer to the rational EXACT than DOUBLE; of two as near, one is even."
+  (multiple-value-bind (mantissa exponent) (integer-decode-float double)
+    (flet ((distance (mantissa) (abs (- exact (* mantissa (expt 2 exponent))))))
+      (let ((own (distance mantissa))
+            (other (min (distance (1+ mantissa))
+                        ;; Below a power of two the next double is half as far.
+                        (distance (- mantissa (if (= mantissa (expt 2 52)) 1/2 1))))))
+        (or (< own other) (and (= own other) (evenp mantissa)))))))
+
+(defun random-decimal (state)
+  "Return the text of a random decimal above 0, and the rational that it spells."
+  (let* ((digits (format nil "~d" (1+ (random (expt 10 (1+ (random 30 state))) state))))
+         (count (random (length digits) state)) ; after the point
+         (power (if (zerop (random 3 state)) (- (random 500 state) 250) 0))
+         (point (- (length digits) count)))
+    (values (format nil "~a.~a~[~:;~:*e~d~]" (subseq digits 0 point) (subseq digits point) power)
+            (* (parse-integer digits) (expt 10 (- power count))))))
+
+(test reader-gives-the-nearest-double
+  ;; The oracle is exact arithmetic: SBCL's own reader takes 9534732981376689.5 for ...688.
+  (is (eql 9534732981376690d0 (first (read-text "9534732981376689.5"))))
+  (let ((state (sb-ext:seed-random-state 17)) (faults '()))
+    (loop repeat 20000
+          do (multiple-value-bind (text exact) (random-decimal state)
+               (unless (nearest-p (first (read-text text)) exact)
+                 (push text faults))))
+    (is (null faults) "seed 17: ~{~a~%~}" faults)))
+
 (test reader-refuses-everything-else
   (loop for (text report) in
         '(("(a" "1:1: this parenthesis is never closed")

@@ -42,16 +42,35 @@
            (if (minusp exponent)
                (/ (coerce mantissa 'double-float) power)
                (* (coerce mantissa 'double-float) power))))
-        ((<= -400 exponent 400)
-         (bounded-rational (* mantissa (expt 10 exponent))))
+        ((<= 0 exponent 400) (bounded-quotient (* mantissa (expt 10 exponent)) 1))
+        ((<= -400 exponent -1) (bounded-quotient mantissa (expt 10 (- exponent))))
         (t (values nil :range))))
+
+(defun bounded-quotient (numerator denominator)
+  "Return the double nearest to NUMERATOR / DENOMINATOR, integers above 0, or NIL and :RANGE."
+  (declare (type (integer 1) numerator denominator))
+  ;; A quotient of 56 or 57 bits, the last one set if there is a remainder, is a machine integer, and
+  ;; what rounds it to a double rounds once.
+  (let ((shift (- (+ 56 (integer-length denominator)) (integer-length numerator))))
+    (multiple-value-bind (quotient remainder)
+        (truncate (ash numerator (max shift 0)) (ash denominator (max (- shift) 0)))
+      (declare (type (unsigned-byte 57) quotient))
+      ;; What is far outside the bounds would overflow.
+      (let ((double (and (< -960 shift 1060)
+                         (scale-float (coerce (if (zerop remainder) quotient (logior quotient 1))
+                                              'double-float)
+                                      (- shift)))))
+        (if (and double (<= +smallest+ double +largest+))
+            double
+            (values nil :range))))))
 
 (defun bounded-rational (number)
   "Return the double nearest to NUMBER, a rational, or NIL and :RANGE."
-  (if (or (zerop number)
-          (<= #.(rational 1d-300) (abs number) #.(rational 1d300)))
-      (coerce number 'double-float)
-      (values nil :range)))
+  (if (zerop number)
+      0d0
+      (multiple-value-bind (double trouble)
+          (bounded-quotient (abs (numerator number)) (denominator number))
+        (values (and double (if (minusp number) (- double) double)) trouble))))
 
 (defun parse-number (text end)
   "Return the number that the first END characters of TEXT spell: an integer, a ratio or a double.
