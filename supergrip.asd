@@ -144,6 +144,7 @@
                              (:file "sessions")
                              (:file "neighbours")
                              (:file "growth")
+                             (:file "processes")
                              (:file "report")
                              (:static-file "pencil.clp")
                              (:static-file "run.lisp")))))

@@ -1,4 +1,4 @@
-;;;; neighbours.lisp -- other programs, run as processes: CLIPS, and a script of ours.
+;;;; neighbours.lisp -- CLIPS, run as a process: Debian's, and a newer one from Python's clipspy.
 
 (in-package :supergrip-bench)
 
@@ -17,6 +17,10 @@
       (let ((start (1+ (position #\( line))))
         (subseq line start (position #\Space line :start start))))))
 
+(defun clipspy-version ()
+  "Return the version of Python's clipspy, or NIL if it is not installed."
+  (first (process-lines '("python3" "-c" "import clips; print(clips.__version__)"))))
+
 (defparameter *clips-sessions* 500 "How many sessions CLIPS runs in a batch.")
 
 (defun decimal (text)
@@ -25,28 +29,34 @@
     (/ (parse-integer (remove #\. text))
        (expt 10 (if point (- (length text) point 1) 0)))))
 
-(defun clips-figure ()
-  "Return the figure of the rule part in CLIPS, or NIL if it is not installed.
+(defun measured-by-clips (name lines)
+  "Return the figure NAME of what (measure ...) has printed, LINES.
 Signals an error unless it remembers the eleven facts of the session and tries ten suggestions."
-  (let* ((program (format nil "(load ~s)~%(measure ~d ~d)~%(exit)~%"
-                          (uiop:native-namestring (project-file "t/bench/pencil.clp"))
-                          *batches* *clips-sessions*))
-         (lines (process-lines '("clips") program))
-         (prefix "seconds "))
-    (flet ((seconds (line)
-             (/ (decimal (subseq line (+ (search prefix line) (length prefix))))
-                *clips-sessions*)))
-      (when lines
-        (unless (find-if (lambda (line) (search "remembered 11 tried 10" line)) lines)
-          (error "CLIPS runs another session: ~{~a~%~}" lines))
-        (figure-of (format nil "CLIPS ~a" (clips-version))
-                   (loop for line in lines when (search prefix line) collect (seconds line)))))))
+  (let ((prefix "seconds "))
+    (unless (find-if (lambda (line) (search "remembered 11 tried 10" line)) lines)
+      (error "CLIPS runs another session: ~{~a~%~}" lines))
+    (figure-of name (loop for line in lines
+                          for start = (search prefix line)
+                          when start
+                            collect (/ (decimal (subseq line (+ start (length prefix))))
+                                       *clips-sessions*)))))
 
-(defun start-up-figure ()
-  "Return the figure of the pencil session as a process, everything compiled."
-  (let ((command (list "sbcl" "--script"
-                       (uiop:native-namestring (project-file "examples/pencil.lisp")))))
-    (flet ((run ()
-             (seconds-of (lambda () (uiop:run-program command :output nil)) 1)))
-      (run)
-      (figure-of "`sbcl --script examples/pencil.lisp`" (loop repeat *batches* collect (run))))))
+(defun clips-figures ()
+  "Return the figures of the rule part in CLIPS, Debian's and clipspy's, as far as installed."
+  (let ((rules (uiop:native-namestring (project-file "t/bench/pencil.clp")))
+        (measure (format nil "(measure ~d ~d)" *batches* *clips-sessions*))
+        (version (clips-version))
+        (clipspy (clipspy-version)))
+    (append
+     (when version
+       (list (measured-by-clips
+              (format nil "CLIPS ~a" version)
+              (process-lines '("clips") (format nil "(load ~s)~%~a~%(exit)~%" rules measure)))))
+     (when clipspy
+       (list (measured-by-clips
+              (format nil "CLIPS 6.4, clipspy ~a" clipspy)
+              (process-lines
+               (list "python3" "-c" "import sys, clips
+environment = clips.Environment()
+environment.load(sys.argv[1])
+environment.eval(sys.argv[2])" rules measure))))))))

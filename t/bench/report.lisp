@@ -73,14 +73,16 @@ a busy machine disturbs least."
   (let ((plan (plan-figures)))
     (print-figures plan)
     (print-figures (part-figures) (first plan)))
-  (let ((rules (rule-figures))
-        (clips (clips-figure)))
+  (let ((rules (rule-figures)))
     (print-figures rules)
-    (if clips
-        (print-figures (list clips) (first rules))
-        (format t "~%CLIPS is not installed: apt-get install clips~2%")))
+    (print-figures (clips-figures) (first rules))))
+
+(defun print-processes (times)
+  (print-head "processes")
   (let ((*batches* (min *batches* 7)))
-    (print-figures (list (start-up-figure)))))
+    (with-executable (executable)
+      (print-figures (start-up-figures executable))
+      (print-figures (batch-figures executable times)))))
 
 (defun print-growth (boxes)
   (print-head "growth, whole plan of the pencil unless said")
@@ -103,4 +105,5 @@ a busy machine disturbs least."
     (format t "~a, ~a~%Times are of one call; a ratio is that of minima, to the first line of ~
                its group.~%" (today) (machine))
     (print-sessions)
+    (print-processes (if quick 1 20))
     (print-growth (if quick '(1000 10000) '(1000 10000 100000 1000000)))))
