@@ -44,10 +44,10 @@ Memory is taken by regions, so many calls are needed for a true figure."
     (make-figure :name name :minimum (first sorted) :bytes bytes
                  :median (nth (floor (length sorted) 2) sorted))))
 
-(defun measure-together (names functions &key (bytes t))
+(defun measure-together (names functions)
   "Return a figure of each of FUNCTIONS, which have NAMES and take no arguments.
 Their batches take turns, so that a busy machine is busy for all of them: ratios can be trusted
-more than the figures themselves.  What they cons is measured if BYTES is true."
+more than the figures themselves."
   (let ((calls (mapcar #'calls-in-a-batch functions))
         (seconds (make-list (length functions) :initial-element '())))
     (sb-ext:gc)
@@ -60,4 +60,4 @@ more than the figures themselves.  What they cons is measured if BYTES is true."
           for function in functions
           for count in calls
           for measured in seconds
-          collect (figure-of name measured (and bytes (bytes-of function count))))))
+          collect (figure-of name measured (bytes-of function count)))))
