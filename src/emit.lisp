@@ -1,16 +1,10 @@
-;;;; emit.lisp -- trees of nodes become programs of a small machine, which runs them.
+;;;; emit.lisp -- trees of nodes become programs of the machine.
 ;;;;
-;;;; Second of two stages.  All numbers live in one array of doubles, the registers: first what
-;;;; the box and the matching give, then the constants of all forms, then intermediate results.
-;;;; A form becomes a program: instructions of four small numbers each, an operator, two registers
-;;;; to read, and one to write or the instruction to jump to.  So a form is run by one loop that
-;;;; boxes and allocates nothing.  What was already computed on every way to an instruction is not
-;;;; computed again.
+;;;; All numbers live in its registers: first what the box and the matching give, then the constants
+;;;; of all forms, then intermediate results.  What was already computed on every way to an
+;;;; instruction is not computed again.
 
 (in-package :supergrip)
-
-(deftype registers () '(simple-array double-float (*)))
-(deftype register () '(unsigned-byte 16))
 
 (defstruct layout
   "Where numbers are: CONSTANTS maps the nodes of constants to registers, which end at BASE; TOP is
@@ -40,12 +34,6 @@ the first register that is free, MOST the most that were ever used."
     (loop for node being the hash-keys of (layout-constants layout) using (hash-value register)
           do (setf (aref registers register) (constant-value node)))
     registers))
-
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (defparameter +operators+
-    #(:end :fail :move :+ :- :* :/ :min :max :sqrt :expt
-      :jump :jump< :jump<= :jump= :jump/= :jump-blocked :jump-free)
-    "The operators of the machine, each at its number."))
 
 (defstruct code
   "A program being emitted: STEPS, instructions and labels, the latest first; DONE, what is already
@@ -193,16 +181,6 @@ the jump (DECISIVE true), or the other."
 
 ;;; Programs
 
-(deftype instructions () '(simple-array (unsigned-byte 16) (*)))
-(deftype register-vector () '(simple-array (unsigned-byte 16) (*)))
-
-(defstruct program
-  "A form ready to run: INSTRUCTIONS that leave the results in the registers RESULTS, or that end
-with :FAIL where the form is a test that does not hold; ROOM is how many registers they need."
-  (instructions nil :type instructions)
-  (results nil :type register-vector)
-  (room 0 :type fixnum))
-
 (defun pack-instructions (code)
   "Return the instructions of CODE."
   (let ((steps (reverse (code-steps code))) (place 0))
@@ -239,75 +217,3 @@ registers of the results."
                            (emit-label code failed)
                            (emit-step code :fail)
                            '()))))
-
-;;; The machine
-
-(defun run-instructions (instructions r)
-  "Run INSTRUCTIONS on the registers R.  Returns true if they end with :END.
-What the checks of safe code would find out again at each step, PACK-INSTRUCTIONS and EXECUTE have found:
-every register is one of R, and every jump leads to an instruction."
-  (declare (type instructions instructions) (type registers r) (optimize (safety 0)))
-  (let ((next 0) (a 0) (b 0) (to 0) (x 0d0) (y 0d0))
-    (declare (type (unsigned-byte 24) next) (type register a b to) (double-float x y))
-    (macrolet ((operators (&rest clauses)
-                 ;; Each operator finds the next itself, not one place for all: a processor then
-                 ;; learns what follows what.
-                 (flet ((tag (op) (intern (string op))))
-                   `(macrolet ((go-on ()
-                                 '(let ((op (aref instructions next)))
-                                   (setf a (aref instructions (+ next 1))
-                                         b (aref instructions (+ next 2))
-                                         to (aref instructions (+ next 3))
-                                         x (aref r a)
-                                         y (aref r b)
-                                         next (+ next 4))
-                                   (ecase op
-                                     ,@(loop for (op) in clauses
-                                             collect `(,(position op +operators+)
-                                                       (go ,(tag op))))))))
-                      (prog ()
-                         (go-on)
-                         ,@(loop for (op . body) in clauses
-                                 append `(,(tag op) ,@body (go-on)))))))
-               (put (form) `(setf (aref r to) ,form))
-               (jump-if (test) `(when ,test (setf next (* 4 to)))))
-      (operators
-       (:end (return t))
-       (:fail (return nil))
-       (:move (put x))
-       (:+ (put (+ x y)))
-       (:- (put (- x y)))
-       (:* (put (* x y)))
-       (:/ (put (/ x y)))
-       (:min (put (if (< y x) y x)))
-       (:max (put (if (> y x) y x)))
-       ;; What is called gets registers: X and Y are never boxed then.
-       (:sqrt (if (< x 0d0) (put-root r a to) (put (sqrt (the (double-float 0d0) x)))))
-       (:expt (put-power r a b to))
-       (:jump (setf next (* 4 to)))
-       (:jump< (jump-if (< x y)))
-       (:jump<= (jump-if (<= x y)))
-       (:jump= (jump-if (= x y)))
-       (:jump/= (jump-if (/= x y)))
-       (:jump-blocked (jump-if (= x 1d0)))
-       (:jump-free (jump-if (/= x 1d0)))))))
-
-(defun put-root (r a to)
-  (declare (type registers r) (type register a to))
-  (setf (aref r to) (real-root (aref r a))))
-
-(defun put-power (r a b to)
-  (declare (type registers r) (type register a b to))
-  (setf (aref r to) (real-power (aref r a) (aref r b))))
-
-(declaim (inline execute run-program))
-(defun execute (program registers)
-  "Run PROGRAM on REGISTERS, those of its grasp base.  False if it is a test that does not hold."
-  (declare (type registers registers))
-  (assert (<= (program-room program) (length registers)))
-  (run-instructions (program-instructions program) registers))
-
-(defun run-program (program registers)
-  "Run PROGRAM on REGISTERS, and return the registers of its results."
-  (execute program registers)
-  (program-results program))

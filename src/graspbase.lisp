@@ -1,12 +1,11 @@
-;;;; graspbase.lisp -- the grasp file: the gripper, helper functions and grasps, checked.
+;;;; graspbase.lisp -- the grasp file: helper functions and grasps, checked.
 
 (in-package :supergrip)
 
 (defstruct grasp
   "A grasp mode.  USED is the list of the slots that it uses, PALM the slot that the palm faces,
 CONTACTS a list of (SLOT P Q), P and Q being registers; PLACES holds the same as axes (0 to 2) and
-registers in turn, without the axes that the faces are normal to.  The other parts are programs (see
-emit).
+registers in turn, without the axes that the faces are normal to.  The other parts are PROGRAMs.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
 SAME, for each matching, the set of those that are the same grasp, itself included."
   (name "" :type string) form file line (comment '()) (index 0 :type fixnum)
@@ -41,59 +40,6 @@ start from."
 (defun dimension (graspbase name)
   "Return the gripper's dimension NAME, a string, as a double."
   (cdr (assoc name (graspbase-gripper graspbase) :test #'string=)))
-
-;;; The gripper
-
-(defparameter +dimensions+
-  '("FINGER-LENGTH" "FINGER-DIST" "FINGER-SPREAD" "FINGER-WIDTH" "DIST-PINCH" "WIDTH-HAND"
-    "SLIPPERY-U")
-  "The dimensions that SUPER-GRIP itself or the printed grasp needs; a gripper may have others.")
-
-(defun parse-dimension (name value form)
-  (cond ((name-in name '("U" "V" "T"))
-         (complain form "~a can't be a dimension: it means something else in a form" name))
-        ((not (and (as-double value) (>= value 0)))
-         (complain form "~a is ~a; a dimension is a number from 0" name (form-text value)))
-        (t (cons (symbol-name name) (as-double value)))))
-
-(defun parse-gripper (list form)
-  "Return the alist of the dimensions in LIST, names and numbers in turn, complaining of what is
-wrong."
-  (let ((dimensions '()) (names '()))
-    (loop while list
-          do (let ((name (pop list)))
-               (cond ((not (namep name))
-                      (complain form "~a is not the name of a dimension" (form-text name)))
-                     ((not (realp (first list)))
-                      (push name names)
-                      (complain form "~a has no number after it" name))
-                     ((name-in name names)
-                      (complain form "~a is given twice" name)
-                      (pop list))
-                     (t (push name names)
-                        (let ((entry (parse-dimension name (pop list) form)))
-                          (when entry (push entry dimensions)))))))
-    (dolist (name +dimensions+)
-      (unless (find-if (lambda (given) (name= given name)) names)
-        (complain form "~a is missing" name)))
-    (check-gripper dimensions form)
-    (nreverse dimensions)))
-
-(defun check-gripper (dimensions form)
-  "Complain of DIMENSIONS that contradict each other."
-  (flet ((size (name) (cdr (assoc name dimensions :test #'string=)))
-         (text (number) (figure number)))
-    (let ((length (size "FINGER-LENGTH")) (dist (size "FINGER-DIST"))
-          (pinch (size "DIST-PINCH")) (width (size "FINGER-WIDTH"))
-          (spread (size "FINGER-SPREAD")))
-      (when (and length dist pinch (> pinch (+ dist (* 2 length))))
-        (complain form "DIST-PINCH is ~a, but fingers of two links of ~a cm that start ~a cm ~
-                        apart open to ~a at most" (text pinch) (text length) (text dist)
-                        (text (+ dist (* 2 length)))))
-      (when (and width spread (> width spread))
-        (complain form "FINGER-WIDTH is ~a, more than FINGER-SPREAD, ~a" (text width) (text spread)))
-      (when (and spread pinch (> spread pinch))
-        (complain form "FINGER-SPREAD is ~a, more than DIST-PINCH, ~a" (text spread) (text pinch))))))
 
 ;;; Helper functions
 
@@ -315,17 +261,6 @@ of them."
 
 ;;; The file
 
-(defun definition-form (form)
-  "Return the name and the list of FORM, (SETQ name '(...)), or NIL after a complaint."
-  (if (and (part-p form "SETQ") (= (length form) 3) (namep (second form))
-           (part-p (third form) "QUOTE") (consp (second (third form))))
-      (values (second form) (second (third form)))
-      (complain form "a grasp file holds (SETQ GRIPPER '(...)), (DEFUN name (parameter...) form) ~
-                      and (SETQ grasp '(...)), not ~a" (form-text form))))
-
-(defun gripper-form-p (form)
-  (and (part-p form "SETQ") (consp (rest form)) (name= (second form) "GRIPPER")))
-
 (defun global-scope (gripper)
   "Return the scope of a grasp file with GRIPPER.  Dimensions that it lacks, of which was complained,
 are known all the same, so that no form is blamed for them."
@@ -340,17 +275,6 @@ are known all the same, so that no form is blamed for them."
                        collect (cons name (constant-node scope number))))
           (scope-globals scope) (scope-variables scope))
     scope))
-
-(defun build-gripper (forms)
-  "Return the gripper that the one (SETQ GRIPPER ...) among FORMS gives, or complain."
-  (let ((grippers (remove-if-not #'gripper-form-p forms))
-        (*subject* "GRIPPER"))
-    (cond ((null grippers) (complain nil "there is no (SETQ GRIPPER '(...))"))
-          (t
-           (dolist (second (rest grippers))
-             (complain second "the gripper is given twice"))
-           (multiple-value-bind (name plist) (definition-form (first grippers))
-             (and name (parse-gripper plist (first grippers))))))))
 
 (defun build-graspbase (forms)
   "Return the graspbase of FORMS, those of a grasp file, in their order.
