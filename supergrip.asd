@@ -75,6 +75,7 @@
                 :serial t
                 :components ((:file "package")
                              (:file "conditions")
+                             (:file "suggest")
                              (:file "names")
                              (:file "numbers")
                              (:file "reader")

@@ -159,3 +159,27 @@
   (is (equal " (did you mean OPPOSED?)"
              (supergrip-data:suggestion "OPPSOED" '("OPPOSED" "PARALLEL"))))
   (is (equal "" (supergrip-data:suggestion "XYZZY" '("OPPOSED" "PARALLEL")))))
+
+(defun plain-distance (a b)
+  "The edit distance of the lists A and B, from its definition."
+  (cond ((null a) (length b))
+        ((null b) (length a))
+        ((eql (first a) (first b)) (plain-distance (rest a) (rest b)))
+        (t (1+ (min (plain-distance (rest a) b)
+                    (plain-distance a (rest b))
+                    (plain-distance (rest a) (rest b))
+                    (if (and (rest a) (eql (first a) (second b)) (eql (second a) (first b)))
+                        (plain-distance (cddr a) (cddr b))
+                        100))))))
+
+(test distances-are-those-of-the-definition
+  (let ((state (sb-ext:seed-random-state 9)) (faults '()))
+    (flet ((word () (map-into (make-string (random 7 state))
+                              (lambda () (char "ABC" (random 3 state))))))
+      (loop repeat 3000
+            do (let* ((a (word)) (b (word)) (most (random 4 state))
+                      (plain (plain-distance (coerce a 'list) (coerce b 'list))))
+                 (unless (eql (and (<= plain most) plain)
+                              (supergrip-data::distance-within a b most))
+                   (push (list a b most plain) faults)))))
+    (is (null faults) "seed 9: ~s" faults)))

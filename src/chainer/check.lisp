@@ -50,9 +50,31 @@ WORDS as strings, the texts of its SURFACES, sorted."
           for number from 0
           when (part-p form "RULE")
             do (multiple-value-bind (tested remembered) (rule-uses form number)
-                 (setf tests (append tests tested)
-                       conclusions (append conclusions remembered))))
-    (values tests conclusions)))
+                 (setf tests (revappend tested tests)
+                       conclusions (revappend remembered conclusions))))
+    (values (reverse tests) (reverse conclusions))))
+
+(defstruct (sources (:constructor make-sources (given derivers names)))
+  "Where sentences come from: tables from the words of one to true if it is GIVEN, an input, and to
+the conclusions that are its DERIVERS, in order; and the NAMES of all, texts."
+  given derivers names)
+
+(defun collect-sources (conclusions inputs)
+  "Return the sources that CONCLUSIONS and INPUTS are."
+  (let ((given (make-hash-table :test #'equal))
+        (derivers (make-hash-table :test #'equal))
+        (names '()))
+    (loop for (words) in inputs
+          do (setf (gethash words given) t)
+             (push (words-text words) names))
+    (dolist (use (reverse conclusions))
+      (push use (gethash (use-words use) derivers)))
+    (loop for words being the hash-keys of derivers
+          unless (gethash words given) do (push (words-text words) names))
+    (make-sources given derivers (sort names #'string<))))
+
+(defun provided-p (words sources)
+  (or (gethash words (sources-given sources)) (gethash words (sources-derivers sources))))
 
 (defmacro about-use ((use) &body body)
   `(let ((*subject* (format nil "RULE ~a" (use-name ,use)))
@@ -62,37 +84,31 @@ WORDS as strings, the texts of its SURFACES, sorted."
 (defun words-text (words)
   (format nil "~{~a~^ ~}" words))
 
-(defun derivers (words conclusions)
-  "Return those of CONCLUSIONS that derive WORDS."
-  (remove words conclusions :key #'use-words :test-not #'equal))
-
-(defun check-provided (test conclusions inputs)
+(defun check-provided (test sources)
   "Warn if nothing provides what TEST tests.  Returns true if so."
-  (let ((provided (append (mapcar #'first inputs) (mapcar #'use-words conclusions))))
-    (unless (member (use-words test) provided :test #'equal)
-      (about-use (test)
-        (complain (use-form test)
-                  '(:warning "nothing provides ~a~a, so ~:[the rule can never fire~;this always ~
-                              holds~]")
-                  (words-text (use-words test))
-                  (suggestion (words-text (use-words test))
-                              (remove-duplicates (mapcar #'words-text provided) :test #'string=))
-                  (use-negated test)))
-      t)))
+  (unless (provided-p (use-words test) sources)
+    (about-use (test)
+      (complain (use-form test)
+                '(:warning "nothing provides ~a~a, so ~:[the rule can never fire~;this always ~
+                            holds~]")
+                (words-text (use-words test))
+                (suggestion (words-text (use-words test)) (sources-names sources))
+                (use-negated test)))
+    t))
 
-(defun check-order (test conclusions inputs)
+(defun check-order (test sources)
   "Warn if TEST comes before a rule that derives what it tests."
-  (let* ((derivers (derivers (use-words test) conclusions))
-         (later (remove-if (lambda (use) (<= (use-rule use) (use-rule test))) derivers))
-         (earlier (remove-if-not (lambda (use) (< (use-rule use) (use-rule test))) derivers)))
+  (let* ((derivers (gethash (use-words test) (sources-derivers sources)))
+         (later (find-if (lambda (use) (> (use-rule use) (use-rule test))) derivers)))
     (when later
       (about-use (test)
         (complain (use-form test)
                   '(:warning "~:[~;the absence of ~]~a is tested here, but ~:[~;also ~]RULE ~a, ~
                               which derives it, comes later; rules run in order, each once")
                   (use-negated test) (words-text (use-words test))
-                  (or earlier (member (use-words test) inputs :key #'first :test #'equal))
-                  (use-name (first later)))))))
+                  (or (gethash (use-words test) (sources-given sources))
+                      (< (use-rule (first derivers)) (use-rule test)))
+                  (use-name later))))))
 
 (defun check-contradiction (tests)
   "Warn if TESTS, those of one rule, hold a sentence and its negation."
@@ -108,26 +124,36 @@ WORDS as strings, the texts of its SURFACES, sorted."
                            '(:warning "this contradicts ~a, so the rule can never fire")
                            (use-place test)))))))
 
+(defun check-contradictions (tests)
+  "Warn if TESTS hold a sentence and its negation in one rule."
+  (loop while tests
+        do (let ((next (member (use-rule (first tests)) tests :key #'use-rule :test-not #'=)))
+             (check-contradiction (ldiff tests next))
+             (setf tests next))))
+
 (defun check-rules (forms inputs)
   "Warn of what can't be meant in FORMS, the rules of a file in their order (see WITH-PROBLEMS).
 INPUTS are the predicates that the input provides, as in BUILD-RULEBASE."
   (multiple-value-bind (tests conclusions) (collect-uses forms)
-    (dolist (test tests)
-      (or (check-provided test conclusions inputs)
-          (check-order test conclusions inputs)))
-    (loop for number from 0 below (length forms)
-          do (check-contradiction (remove number tests :key #'use-rule :test-not #'=)))
-    (check-unused tests conclusions inputs)))
+    (let ((sources (collect-sources conclusions inputs)))
+      (dolist (test tests)
+        (or (check-provided test sources)
+            (check-order test sources)))
+      (check-contradictions tests)
+      (check-unused tests conclusions sources))))
 
-(defun check-unused (tests conclusions inputs)
+(defun check-unused (tests conclusions sources)
   "Warn of conclusions that no rule tests and that look like something known that one does."
-  (let ((tested (intersection (remove-duplicates (mapcar #'use-words tests) :test #'equal)
-                              (append (mapcar #'first inputs) (mapcar #'use-words conclusions))
-                              :test #'equal)))
-    (dolist (conclusion conclusions)
-      (unless (member (use-words conclusion) tested :test #'equal)
-        (let ((close (suggestion (words-text (use-words conclusion)) (mapcar #'words-text tested))))
-          (unless (string= close "")
-            (about-use (conclusion)
-              (complain (use-form conclusion) '(:warning "no rule tests ~a~a")
-                        (words-text (use-words conclusion)) close))))))))
+  (let ((tested (make-hash-table :test #'equal)))
+    (dolist (test tests)
+      (when (provided-p (use-words test) sources)
+        (setf (gethash (use-words test) tested) t)))
+    (let ((texts (sort (loop for words being the hash-keys of tested collect (words-text words))
+                       #'string<)))
+      (dolist (conclusion conclusions)
+        (unless (gethash (use-words conclusion) tested)
+          (let ((close (suggestion (words-text (use-words conclusion)) texts)))
+            (unless (string= close "")
+              (about-use (conclusion)
+                (complain (use-form conclusion) '(:warning "no rule tests ~a~a")
+                          (words-text (use-words conclusion)) close)))))))))

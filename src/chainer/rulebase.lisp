@@ -263,16 +263,18 @@ strings.  CLIENT is what the actions of the lower level are compiled against.
 
 Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
   (let ((*rulebase* (%make-rulebase :client client))
-        (rules '()))
+        (rules '())
+        (names (make-hash-table :test #'equal)))
     (loop for (words arity) in inputs
           do (intern-predicate words arity nil :given t))
     (dolist (form forms)
       (let ((rule (parse-rule form)))
-        (when rule
-          (if (find (rule-name rule) rules :key #'rule-name :test #'string=)
-              (let ((*subject* (format nil "RULE ~a" (rule-name rule))))
-                (complain form "there is a rule of this name before it"))
-              (push rule rules)))))
+        (cond ((null rule))
+              ((gethash (rule-name rule) names)
+               (let ((*subject* (format nil "RULE ~a" (rule-name rule))))
+                 (complain form "there is a rule of this name before it")))
+              (t (setf (gethash (rule-name rule) names) t)
+                 (push rule rules)))))
     (setf (rulebase-rules *rulebase*) (coerce (reverse rules) 'simple-vector))
     (loop for rule across (rulebase-rules *rulebase*)
           for index from 0

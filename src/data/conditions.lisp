@@ -76,6 +76,7 @@ goes on without the rules and grasps that are wrong."))
 (defvar *place* nil "Which part of it: \"clause 2\".")
 (defvar *form* nil "The innermost list being checked whose line is known.")
 (defvar *problems*)
+(defvar *noted* nil "A table of the problems noted, so that none is noted twice.")
 
 (defun line-of (form)
   (and *lines* (or (gethash form *lines*) (gethash *form* *lines*))))
@@ -83,17 +84,21 @@ goes on without the rules and grasps that are wrong."))
 (defun complain (form control &rest arguments)
   "Note an error in FORM, a list or a part of one, described by the format CONTROL and ARGUMENTS.
 A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL."
-  (let ((severity (if (consp control) (first control) :error))
-        (control (if (consp control) (second control) control)))
-    (pushnew (make-problem :severity severity :file *file* :line (line-of form)
-                           :subject *subject* :place *place*
-                           :text (apply #'format nil control arguments))
-             *problems* :test #'equalp))
+  (let* ((severity (if (consp control) (first control) :error))
+         (control (if (consp control) (second control) control))
+         (parts (list severity *file* (line-of form) *subject* *place*
+                      (apply #'format nil control arguments))))
+    (unless (gethash parts *noted*)
+      (setf (gethash parts *noted*) t)
+      (destructuring-bind (severity file line subject place text) parts
+        (push (make-problem :severity severity :file file :line line :subject subject
+                            :place place :text text)
+              *problems*))))
   nil)
 
 (defmacro with-problems (&body body)
   "Run BODY; return its value and the list of the problems that it complained of, in order."
-  `(let ((*problems* '()))
+  `(let ((*problems* '()) (*noted* (make-hash-table :test #'equal)))
      (let ((value (progn ,@body)))
        (values value (reverse *problems*)))))
 
@@ -104,38 +109,3 @@ A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL."
 (defun errors-in (problems)
   "Return those of PROBLEMS that are errors."
   (remove :error problems :key #'problem-severity :test-not #'eq))
-
-;;; "Did you mean"
-
-(defun edit-distance (a b)
-  "Return how many letters must be inserted, deleted, replaced or swapped to turn A into B."
-  (let ((before nil)
-        (above (loop for j from 0 to (length b) collect j)))
-    (loop for i from 1 to (length a)
-          do (let ((row (list i)))
-               (loop for j from 1 to (length b)
-                     for same = (char= (char a (1- i)) (char b (1- j)))
-                     do (push (min (1+ (first row))
-                                   (1+ (nth j above))
-                                   (+ (nth (1- j) above) (if same 0 1))
-                                   (if (and (> i 1) (> j 1)
-                                            (char= (char a (1- i)) (char b (- j 2)))
-                                            (char= (char a (- i 2)) (char b (1- j))))
-                                       (1+ (nth (- j 2) before))
-                                       most-positive-fixnum))
-                              row))
-               (setf before above above (nreverse row))))
-    (first (last above))))
-
-(defun suggestion (text known)
-  "Return a phrase that suggests the string of KNOWN that TEXT was probably meant to be, or \"\"."
-  (let ((text (subseq text 0 (min 60 (length text))))
-        (best nil) (least nil))
-    (dolist (word known)
-      (let ((distance (edit-distance text word)))
-        ;; Any two short names are close.
-        (when (and (> (length text) 2)
-                   (<= distance (min 3 (max 1 (floor (length word) 3))))
-                   (or (null least) (< distance least)))
-          (setf best word least distance))))
-    (if best (format nil " (did you mean ~a?)" best) "")))
