@@ -25,8 +25,8 @@ if KEEP is true."
 Signals a SYSTEM-FAILURE if the one can't be read or the other not written."
   (let* ((input (make-input descriptor (lambda () (flush-output (batch-output batch)))))
          (source (input-source input nil))
-         (notation (or (batch-notation batch) (notation-of source))))
-    (setf (input-json input) (eq notation :json))
+         (notation (or (setf (input-notation input) (batch-notation batch))
+                       (setf (input-notation input) (notation-of source)))))
     (unless (batch-format batch)
       (setf (batch-format batch) notation))
     (let ((*notation* notation))

@@ -11,8 +11,9 @@
 
 (defstruct (input (:constructor make-input (descriptor before-waiting)))
   "A descriptor being read.  BEFORE-WAITING is called before each wait for octets.  The characters
-from PLACE to END of CHARACTERS are not given to the reader yet.  OPEN is true while a record is
-being read, CUT once a line that starts another one has ended it."
+from PLACE to END of CHARACTERS are not given to the reader yet.  NOTATION is :LISP or :JSON, NIL
+until it is known.  OPEN is true while a record is being read, CUT once a line that starts another
+one has ended it."
   (descriptor 0 :type fixnum)
   (before-waiting nil :type function)
   (octets (make-array 65536 :element-type '(unsigned-byte 8)) :type octets)
@@ -23,7 +24,7 @@ being read, CUT once a line that starts another one has ended it."
   (at-end nil)
   (fresh t)                             ; nothing read yet
   (line-start t)
-  (json nil)
+  (notation nil)
   (open nil)
   (cut nil))
 
@@ -137,9 +138,9 @@ The second value is true if more characters are needed to tell."
                (and (string-equal prefix characters :end1 count
                                                     :start2 place :end2 (+ place count))
                     (if (= count (length prefix)) :yes :maybe)))))
-      (let ((answers (if (input-json input)
-                         (list (begins "{"))
-                         (list (begins "((") (begins "(SETQ")))))
+      (let ((answers (ecase (input-notation input)
+                       (:json (list (begins "{")))
+                       (:lisp (list (begins "((") (begins "(SETQ"))))))
         (values (and (member :yes answers) t)
                 (and (member :maybe answers) t))))))
 
@@ -153,14 +154,15 @@ The second value is true if more characters are needed to tell."
 
 (defun piece-end (input)
   "Return where the piece that begins at the place of INPUT ends: before a line that may start a
-record, or where the characters end."
+record (as long as the notation is not known, any may), or where the characters end."
   (let* ((characters (input-characters input))
          (end (input-end input))
-         (first (if (input-json input) #\{ #\()))
+         (first (ecase (input-notation input) (:json #\{) (:lisp #\() ((nil) nil))))
     (declare (type (simple-array character (*)) characters) (fixnum end))
     (loop for place of-type fixnum from (input-place input) below end
           do (when (and (char= (schar characters place) #\Newline)
-                        (or (= (1+ place) end)
+                        (or (null first)
+                            (= (1+ place) end)
                             (char= (schar characters (1+ place)) first)))
                (return (1+ place)))
           finally (return end))))

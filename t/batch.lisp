@@ -139,7 +139,11 @@
                (is (= (length expected) (length statuses)) "~a: ~s" name statuses)
                (is (every (lambda (expected status) (eql 0 (search expected status)))
                           expected statuses)
-                   "~a: ~s" name statuses)))))
+                   "~a: ~s" name statuses)
+               ;; That it is JSON can be told from how it begins.
+               (when (find (char (first text) 0) "{[")
+                 (is (equal statuses (statuses (answers text)))
+                     "~a, without --input: ~s" name (statuses (answers text))))))))
 
 (test mistakes-in-json-boxes-are-told-in-json
   (loop for (old new report) in
