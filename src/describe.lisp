@@ -4,12 +4,14 @@
 
 (defun find-named (name knowledge kind)
   "Return the rule or grasp, as KIND says, NAME of KNOWLEDGE, or signal a NO-RULE-ERROR."
-  (let ((found (if (eq kind :rule)
-                   (find-rule (knowledge-rulebase knowledge) name)
-                   (find-grasp (knowledge-graspbase knowledge) name))))
-    (or found
+  (let ((rule (find-rule (knowledge-rulebase knowledge) name))
+        (grasp (find-grasp (knowledge-graspbase knowledge) name))
+        (rule-p (eq kind :rule)))
+    (or (if rule-p rule grasp)
         (error 'no-rule-error :name name
-                              :known (if (eq kind :rule)
+                              :hint (cond (rule "a rule: see DESCRIBE-RULE")
+                                          (grasp "a grasp: see DESCRIBE-GRASP"))
+                              :known (if rule-p
                                          (mapcar #'rule-name (knowledge-rules knowledge))
                                          (mapcar #'grasp-name (knowledge-grasps knowledge)))))))
 

@@ -50,32 +50,51 @@ the last one, which keeps the best; anything else at the end."
         (t (length forms))))
 
 (defun put-form (form forms before)
-  "Return FORMS with FORM in the place of the one of its name, or in a place of its own."
-  (if (find-if (lambda (other) (same-definition-p form other)) forms)
-      (substitute-if form (lambda (other) (same-definition-p form other)) forms)
-      (let ((place (place-of-new form forms before)))
-        (append (subseq forms 0 place) (list form) (nthcdr place forms)))))
+  "Return FORMS with FORM in the place of the one of its name; or, if there is none or BEFORE is
+given, in a place of its own."
+  (flet ((same-p (other) (same-definition-p form other)))
+    (if (and (null before) (find-if #'same-p forms))
+        (substitute-if form #'same-p forms)
+        (let* ((others (remove-if #'same-p forms))
+               (place (place-of-new form others before)))
+          (append (subseq others 0 place) (list form) (nthcdr place others))))))
+
+(defun edited-file (file edit)
+  "Return the data file FILE with the forms that EDIT, a function, makes of its own."
+  (let ((copy (copy-data-file file)))
+    (setf (data-file-forms copy) (funcall edit (data-file-forms file)))
+    copy))
 
 (defun edit (form &key before)
   "Put FORM, (RULE ...), (SETQ grasp '(...)), (SETQ GRIPPER '(...)) or (DEFUN ...), into the knowledge
-in force, in place of the one of its name.  A new rule goes before the rule BEFORE, by default
-before the last; a new grasp goes last.  Returns the new knowledge.
+in force, in place of the one of its name.  A rule goes before the rule BEFORE if that is given; a
+new one goes before the last by default.  A new grasp goes last.  Returns the new knowledge.
 
 On a KNOWLEDGE-ERROR the former knowledge stays in force; the restart CONTINUE goes on with it.  The
 files stay as they are: RELOAD-KNOWLEDGE takes edits back."
-  (let* ((form (canonical form))
-         (rule-p (part-p form "RULE")))
-    (flet ((edited (file)
-             (let ((copy (copy-data-file file)))
-               (setf (data-file-forms copy) (put-form form (data-file-forms file) before))
-               copy)))
-      (let ((rules (knowledge-rule-file *knowledge*))
-            (grasps (knowledge-grasp-file *knowledge*)))
-        (put-into-force #'accept-edit
-                        (lambda ()
-                          (if rule-p
-                              (build-knowledge (edited rules) grasps)
-                              (build-knowledge rules (edited grasps)))))))))
+  (let ((form (canonical form)))
+    (change-knowledge (part-p form "RULE") (lambda (forms) (put-form form forms before)))))
+
+(defun change-knowledge (rules-p edit)
+  "Put into force what becomes of the knowledge when EDIT, a function, changes the forms of its rules,
+or of its grasps if RULES-P is false."
+  (let ((rules (knowledge-rule-file *knowledge*))
+        (grasps (knowledge-grasp-file *knowledge*)))
+    (put-into-force #'accept-edit
+                    (lambda ()
+                      (if rules-p
+                          (build-knowledge (edited-file rules edit) grasps)
+                          (build-knowledge rules (edited-file grasps edit)))))))
+
+(defun forget (name)
+  "Take the rule or the grasp NAME, a symbol or a string, out of the knowledge in force, and return
+the new knowledge.  On a KNOWLEDGE-ERROR, as when a rule still tries the grasp, the former stays.
+The files stay as they are: RELOAD-KNOWLEDGE takes it back."
+  (let* ((name (check-name name))
+         (rule-p (find-rule (knowledge-rulebase *knowledge*) name)))
+    (flet ((of-name-p (form)
+             (and (part-p form (if rule-p "RULE" "SETQ")) (name= (second form) name))))
+      (change-knowledge rule-p (lambda (forms) (remove-if #'of-name-p forms))))))
 
 (defmacro rule (&whole form name &rest parts)
   "Put the rule NAME into the knowledge in force, as EDIT does: (RULE name (IF ...) (THEN ...))."
@@ -98,6 +117,10 @@ files stay as they are: RELOAD-KNOWLEDGE takes edits back."
   "A box for which two knowledge bases differ.  WHAT is :VERDICT, :GRASP (or its matching) or
 :QUALITY; OLD and NEW are the plans."
   box what old new)
+
+(defmethod print-object ((difference difference) stream)
+  (print-unreadable-object (difference stream :type t)
+    (format stream "~a" (difference-what difference))))
 
 (defun plan-difference (old new)
   "Return what of the plans OLD and NEW differs, or NIL."

@@ -14,14 +14,15 @@
   (:documentation "A question was asked about a sentence that no rule or input speaks of."))
 
 (define-condition no-rule-error (supergrip-error)
-  ((name :initarg :name) (known :initarg :known))
+  ((name :initarg :name) (known :initarg :known) (hint :initarg :hint :initform nil))
   (:report (lambda (condition stream)
-             (with-slots (name known) condition
-               (format stream "there is no rule or grasp ~a~a; there are ~{~a~^, ~}" name
-                       (suggestion (string-upcase name) known) known)
-               (when (in-force-p name)
-                 (format stream "~%The knowledge in force has it, but the plan was made before: ~
-                                 call (forward-chain) again.")))))
+             (with-slots (name known hint) condition
+               (if hint
+                   (format stream "~a is ~a" name hint)
+                   (format stream "there is no rule or grasp ~a~a; there are ~{~a~^, ~}~@[~%~a~]"
+                           name (suggestion (string-upcase name) known) known
+                           (and (in-force-p name)
+                                "The knowledge in force has it, but the plan was made before: call (forward-chain) again."))))))
   (:documentation "A question was asked about a name that is neither a rule's nor a grasp's."))
 
 (defstruct explanation "What all answers to a question have in common.")
@@ -140,6 +141,8 @@ input, where it comes from."
              (refuse "a fact is a list, as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)"))
             ((or (member "NOT" words :test #'string=) (member "NO" words :test #'string=))
              (refuse "ask about the sentence without NOT or NO"))
+            ((and (null list) (find-if #'loose-surface-p form))
+             (refuse "surfaces stand in a list of their own: ~a" (form-text (list-surfaces form))))
             ((null predicate)
              (refuse "nothing speaks of ~{~a~^ ~}~a; known are ~{~a~^, ~}" words
                      (suggestion (format nil "~{~a~^ ~}" words)

@@ -87,8 +87,8 @@ and these take fewer registers than there are.")
 
 (defun parse-variable (name scope)
   (or (cdr (assoc name (scope-variables scope) :test #'name=))
-      (complain name "unknown name ~a~a; known are U, V, the gripper's dimensions and what LET* ~
-                      binds" name
+      (complain name "unknown name ~a~a; known are U, V, the gripper's dimensions, a helper's ~
+                      parameters and what LET* binds" name
                 (suggestion (symbol-name name) (mapcar #'car (scope-variables scope))))))
 
 (defun parse-operation (form scope)

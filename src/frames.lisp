@@ -21,6 +21,10 @@ axis does, -1 where it does not."
   (axes nil :type (simple-array (unsigned-byte 8) (6)))
   (signs nil :type (simple-array double-float (3))))
 
+(defmethod print-object ((matching matching) stream)
+  (print-unreadable-object (matching stream :type t)
+    (format stream "~{~a~^ ~}" (matching-names matching))))
+
 (defun permutation-sign (axes)
   "Return 1 if the three AXES are an even permutation of 0 1 2, else -1."
   (if (member axes '((0 1 2) (1 2 0) (2 0 1)) :test #'equal) 1 -1))

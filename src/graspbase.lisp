@@ -33,6 +33,10 @@ start from."
   (broken '() :type list)               ; names of grasps that were left out
   (registers (make-array +inputs-end+ :element-type 'double-float) :type registers))
 
+(defmethod print-object ((graspbase graspbase) stream)
+  (print-unreadable-object (graspbase stream :type t)
+    (format stream "~d grasps" (length (graspbase-grasps graspbase)))))
+
 (defun find-grasp (graspbase name)
   "Return the grasp of GRASPBASE that has NAME, or NIL."
   (find name (graspbase-grasps graspbase) :key #'grasp-name :test #'string-equal))
@@ -95,7 +99,7 @@ start from."
           (t slots))))
 
 (defun parse-palm (entry used form)
-  "Return the slot of the palm: by default the used face of A."
+  "Return the slot of the palm: by default the used face of A.  USED is NIL if it is wrong itself."
   (let ((slot (if entry
                   (slot-index (cdr entry))
                   (find-if (lambda (slot) (member slot used)) '(5 4)))))
@@ -103,7 +107,7 @@ start from."
            (complain form (if entry "~a: PALM is one of N1 N2 O1 O2 A1 A2"
                               "PALM is missing, and no face of A is used~*")
                      (and entry (form-text (cdr entry)))))
-          ((not (member slot used))
+          ((and used (not (member slot used)))
            (complain form "the palm faces ~a, which is not one of USED-SURFACES"
                      (svref +slots+ slot)))
           (t slot))))
@@ -114,7 +118,7 @@ start from."
     (cond ((or (null slot) (/= (length contact) 3))
            (complain contact "~a is not a contact: a face, and its place on it along the two other ~
                            axes, as (N1 0 0)" (form-text contact)))
-          ((not (member slot used))
+          ((and used (not (member slot used)))
            (complain contact "a finger is on ~a, which is not one of USED-SURFACES"
                      (svref +slots+ slot)))
           (t (let ((p (parse-number-form (second contact) scope))
@@ -166,8 +170,9 @@ start from."
                          (let ((*place* ,key))
                            (counting-steps ((value ,key)) ,form)))))
         (let* ((used (part "USED-SURFACES" (parse-used (value "USED-SURFACES"))))
-               (palm (and used (let ((*place* "PALM")) (parse-palm (given "PALM") used form))))
-               (contacts (and used palm
+               (palm (and (or used (given "PALM"))
+                          (let ((*place* "PALM")) (parse-palm (given "PALM") used form))))
+               (contacts (and (or (and used palm) (given "CONTACTS"))
                               (let ((*place* "CONTACTS"))
                                 (counting-steps (form)
                                   (parse-contacts (given "CONTACTS") used palm scope form)))))

@@ -63,6 +63,7 @@ Examples:
     ("--report" :report :file)
     ("--check" :check)
     ("--help" :help)
+    ("-h" :help)
     ("--version" :version))
   "Each option, its key, and what its value is, if it takes one.")
 
@@ -181,9 +182,10 @@ Signals a KNOWLEDGE-ERROR, or a SYSTEM-FAILURE if one can't be opened."
       (values nil 66))))
 
 (defun check (knowledge)
-  "Report that KNOWLEDGE has no mistakes."
-  (tell "~d rules and ~d grasps, no mistakes" (length (knowledge-rules knowledge))
-        (length (knowledge-grasps knowledge)))
+  "Report that KNOWLEDGE has no mistakes, and of how many things was warned."
+  (let ((warnings (length (knowledge-warnings knowledge))))
+    (tell "~d rules and ~d grasps, no mistakes~[~:;, ~:*~d warning~:p~]"
+          (length (knowledge-rules knowledge)) (length (knowledge-grasps knowledge)) warnings))
   0)
 
 ;;; The run

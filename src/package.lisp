@@ -25,7 +25,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:*trace-level* #:trace-rule #:untrace-rule #:trace-grasp #:untrace-grasp
    #:break-on #:unbreak #:chain-break #:next-rule #:rule-counts
    ;; editing
-   #:rule #:edit #:reload-knowledge #:compare-knowledge
+   #:rule #:edit #:forget #:reload-knowledge #:compare-knowledge
    #:difference #:difference-box #:difference-what #:difference-old #:difference-new
    ;; boxes
    #:parse-box #:box-name #:box-size #:box-weight #:box-friction #:box-soft-friction

@@ -32,7 +32,9 @@ BOX is a box or a description of one, by default what (setq box ...) gave; GAMMA
   (setf *plan*
         (if (or step *traced* *breaks* (> trace 1))
             (traced-plan given knowledge gamma trace step
-                         (if (and stream (plusp trace)) stream (make-broadcast-stream)))
+                         (if (and stream (or (plusp trace) *traced*))
+                             stream
+                             (make-broadcast-stream)))
             (plan given :knowledge knowledge :gamma gamma)))
   (when (and stream (= trace 1) (not (or step *traced* *breaks*)))
     (write-transcript *plan* stream))

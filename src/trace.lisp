@@ -18,11 +18,13 @@ many bindings, 3 also every action and the candidates that fail, 4 also what mee
                               :known (known-names *knowledge*)))))
 
 (defun trace-rule (&rest names)
-  "Trace the rules NAMES in full, whatever the level.  Returns the names of all that is traced."
+  "Trace the rules NAMES in full, whatever the level: at level 0, they alone are traced.  Returns the
+names of all that is traced."
   (setf *traced* (union *traced* (mapcar #'check-name names) :test #'string=)))
 
 (defun trace-grasp (&rest names)
-  "Trace the grasps NAMES: show their candidates that fail.  Returns the names of all that is traced."
+  "Trace the grasps NAMES: show their candidates, also those that fail, whatever the level.  Returns
+the names of all that is traced."
   (apply #'trace-rule names))
 
 (defun untrace-rule (&rest names)
@@ -110,16 +112,19 @@ rule, CONTINUE to the next break."))
     (format stream "  (~a FAILS AT ~a, MATCHING: (~{~a~^ ~})): ~a~%" (candidate-grasp candidate)
             step (candidate-matching candidate) text)))
 
-(defun write-additions (events plan level stream)
-  "Write EVENTS, what an action added to the log."
+(defun write-additions (events plan level traced stream)
+  "Write EVENTS, what an action added to the log, of a rule that is TRACED or not."
   (dolist (event events)
     (cond ((not (candidate-p event))
-           (write-event event (plan-rulebase plan) stream)
+           (when (or traced (plusp level))
+             (write-event event (plan-rulebase plan) stream))
            (when (fact-broken-p event (plan-rulebase plan))
              (pause "~a is known" (multiple-value-call #'fact-text
                                     (event-fact event (plan-rulebase plan))))))
-          ((candidate-quality event) (write-candidate event stream))
-          ((or (>= level 3) (traced-p (candidate-grasp event)))
+          ((candidate-quality event)
+           (when (or traced (plusp level) (traced-p (candidate-grasp event)))
+             (write-candidate event stream)))
+          ((or traced (>= level 3) (traced-p (candidate-grasp event)))
            (write-failed-candidate event plan stream)))))
 
 (defun trace-observer (plan memory level stream)
@@ -145,7 +150,7 @@ for."
                              (let ((text (binding-text rule binding)))
                                (and (plusp (length text)) text))
                              (and (null added) (grasp-p (action-target action)))))
-                   (write-additions added plan level stream)))
+                   (write-additions added plan level (traced-p (rule-name rule)) stream)))
         (:stop nil)))))
 
 (defun observed-plan (box knowledge gamma make-observer)
@@ -165,8 +170,9 @@ and the memory that the rules run on."
          (plan (observed-plan box knowledge gamma
                               (lambda (plan memory)
                                 (trace-observer plan memory level stream)))))
-    (write-verdict plan stream)
-    (format stream "--END--~%")
+    (when (plusp level)
+      (write-verdict plan stream)
+      (format stream "--END--~%"))
     plan))
 
 ;;; Counts

@@ -18,6 +18,13 @@
   (force-limit -1 :type (integer -1 5)) (velocity-limit -1 :type (integer -1 5))
   (x 0d0 :type double-float) (y 0d0 :type double-float) (z 0d0 :type double-float))
 
+(defmethod print-object ((candidate candidate) stream)
+  (print-unreadable-object (candidate stream :type t)
+    (format stream "~a (~{~a~^ ~}) ~:[~a~;Q=~*~,3f~]" (grasp-name (%candidate-grasp candidate))
+            (matching-names (%candidate-matching candidate))
+            (eq (%candidate-outcome candidate) :possible) (%candidate-outcome candidate)
+            (%candidate-quality candidate))))
+
 (defun make-six () (make-array 6 :element-type 'double-float :initial-element 0d0))
 (defun make-three () (make-array 3 :element-type 'double-float :initial-element 0d0))
 
@@ -33,6 +40,10 @@ frame."
   (offset (make-three) :type three)
   (wrench (make-six) :type six) (twist (make-six) :type six)
   (load (make-six) :type six) (need (make-six) :type six))
+
+(defmethod print-object ((attempt attempt) stream)
+  (print-unreadable-object (attempt stream :type t)
+    (format stream "~@[at ~a~]" (attempt-box attempt))))
 
 (defun make-attempt (graspbase)
   "Return an attempt with the grasps of GRASPBASE, at no box yet."
@@ -264,6 +275,9 @@ return true as the second value."
   "Make ACTION try GRASP, if its suggestion is good."
   (multiple-value-bind (terms bad) (parse-suggestion (rest (action-operands action)) action)
     (unless bad
+      (when (zerop (constant-matchings terms))
+        (complain (action-form action) '(:warning "no matching has these faces in these places: N O ~
+                                                   A is a proper rotation of X Y Z")))
       (setf (action-target action) grasp
             (action-terms action) terms
             (action-function action)

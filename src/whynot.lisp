@@ -100,15 +100,18 @@ TEXT is a sentence, PLAN the plan."
 
 (defun not-tried (grasp matching plan)
   "Return why no rule of PLAN tried GRASP in MATCHING, or at all."
-  (let ((rules (trying-rules grasp plan))
-        (candidates (would-be grasp matching plan)))
+  (let* ((rules (trying-rules grasp plan))
+         (candidates (would-be grasp matching plan))
+         (refusals (loop for rule in rules collect (refuse-rule rule plan))))
     (make-not-chosen
      :plan plan :kind (if candidates :not-tried :constrained) :grasp grasp :matching matching
      :candidates candidates
-     :refusals (loop for rule in rules collect (refuse-rule rule plan))
+     :refusals refusals
      :text (cond ((null candidates) "in every matching it would use a constrained face")
                  ((null rules) "no rule tries it")
                  (matching "no rule tried it in this matching")
+                 ((some #'refusal-fired refusals)
+                  "what the rules suggest is no matching, or would use a constrained face")
                  (t "no rule tried it")))))
 
 (defun refuse-grasp (grasp plan)

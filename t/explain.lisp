@@ -261,7 +261,14 @@
          (is (find-if (lambda (line) (search "(PINCH-3-U-SHAPE FAILS AT CONDITIONS" line))
                       (printed (supergrip:forward-chain
                                 :box (supergrip:plan-box (plan-of '(30 20 30) 0.5d0 '(z2)))))))
-         (signals supergrip:no-rule-error (supergrip:trace-rule 'grip99)))
+         (signals supergrip:no-rule-error (supergrip:trace-rule 'grip99))
+         (supergrip:untrace-grasp)
+         (supergrip:trace-rule 'grip9)
+         (let ((lines (printed (supergrip:forward-chain :box (paper-box) :trace 0))))
+           (is (equal '("  RULE GRIP9" "  RULE GRIP9 fires: 2 bindings")
+                      (remove-if-not (lambda (line) (search "RULE" line)) lines)))
+           (is (= 2 (count-if (lambda (line) (search "IS O.K." line)) lines))
+               "at level 0 what is traced is alone")))
     (supergrip:untrace-rule)))
 
 (defun stops (function)
@@ -345,7 +352,53 @@
     (is (= 8 (length (supergrip:plan-candidates (pencil-plan)))))
     (supergrip:edit '(rule early (if (slippery)) (then (cant do))) :before 'grip2)
     (is (equal "EARLY" (supergrip-chainer:rule-name
-                        (second (supergrip:knowledge-rules supergrip:*knowledge*)))))))
+                        (second (supergrip:knowledge-rules supergrip:*knowledge*)))))
+    (supergrip:edit '(rule early (if (slippery)) (then (cant do it))) :before 'grip1)
+    (is (equal '("EARLY" "GRIP1" "GRIP2")
+               (mapcar #'supergrip-chainer:rule-name
+                       (subseq (supergrip:knowledge-rules supergrip:*knowledge*) 0 3)))
+        "a rule that is there moves")
+    (signals supergrip:no-rule-error
+      (supergrip:edit '(rule early (if (slippery)) (then (cant do))) :before 'grip99))))
+
+(test rules-and-grasps-are-forgotten
+  (with-knowledge-restored
+    (let ((before supergrip:*knowledge*))
+      (is (search "TRY names PINCH-3-CORNER, which is not in the database"
+                  (handler-case (supergrip:forget 'pinch-3-corner)
+                    (supergrip:knowledge-error (condition) (princ-to-string condition)))))
+      (is (eq before supergrip:*knowledge*) "rules try it"))
+    (handler-bind ((supergrip:knowledge-warning #'muffle-warning)) ; nothing tries the corner grasp
+      (mapc #'supergrip:forget '(grip4 "GRIP10")))
+    (supergrip:forget 'pinch-3-corner)
+    (is (= 13 (length (supergrip:knowledge-rules supergrip:*knowledge*))))
+    (is (= 6 (length (supergrip:knowledge-grasps supergrip:*knowledge*))))
+    (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp (pencil-plan))))
+    (signals supergrip:no-rule-error (supergrip:forget 'grip4))))
+
+(test a-suggestion-that-is-no-matching-is-told
+  (with-knowledge-restored
+    (supergrip:rule mine (if (corner (s1 s2 s3))) (then (try pinch-3-corner (s1 s2 s3 ? ? ?))))
+    (let ((lines (printed (supergrip:why-not 'pinch-3-corner nil (pencil-plan)))))
+      (is (equal "PINCH-3-CORNER: what the rules suggest is no matching, or would use a constrained face."
+                 (first lines)))
+      (is (find-if (lambda (line) (search "RULE MINE did fire" line)) lines)))))
+
+(test a-name-of-the-other-kind-is-told
+  (is (equal "PINCH-3-PARALLEL is a grasp: see DESCRIBE-GRASP"
+             (handler-case (supergrip:describe-rule 'pinch-3-parallel)
+               (supergrip:no-rule-error (condition) (princ-to-string condition)))))
+  (is (equal "GRIP9 is a rule: see DESCRIBE-RULE"
+             (handler-case (supergrip:describe-grasp 'grip9)
+               (supergrip:no-rule-error (condition) (princ-to-string condition)))))
+  (is (search "surfaces stand in a list of their own: (PARALLEL (Y2 Y1))"
+              (handler-case (supergrip:how '(parallel y2 y1) (pencil-plan))
+                (supergrip:no-fact-error (condition) (princ-to-string condition))))))
+
+(test objects-print-what-they-are
+  (is (equal "#<CANDIDATE PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1) Q=0.770>"
+             (let ((*package* (find-package :supergrip)))
+               (prin1-to-string (first (supergrip:plan-candidates (pencil-plan))))))))
 
 (test a-broken-edit-leaves-the-last-good-knowledge
   (let ((before supergrip:*knowledge*))

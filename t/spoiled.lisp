@@ -151,6 +151,10 @@
      "grasps.lisp:1: GRIPPER: FINGER-WIDTH is 3, more than FINGER-SPREAD, 2")
     (:GRASPS "FINGER-SPREAD 2" "FINGER-SPREAD 13"
      "grasps.lisp:1: GRIPPER: FINGER-SPREAD is 13, more than DIST-PINCH, 12")
+    (:RULES "(PARALLEL (s1 s2))" "(PARALLEL s1 s2)"
+     "rules.lisp:12: RULE ACROSS, clause 1: surfaces stand in a list of their own, at the end: (PARALLEL (S1 S2))")
+    (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (X1 Y1 ? ? ? ?))"
+     "rules.lisp:13: warning: RULE ACROSS, action 1: no matching has these faces in these places: N O A is a proper rotation of X Y Z")
     (:GRASPS "(DEFUN HALF (x)" "(SETQ GRIPPER '(FINGER-LENGTH 3)) (DEFUN HALF (x)"
      "grasps.lisp:4: GRIPPER: the gripper is given twice")
     (:GRASPS "(DEFUN HALF (x)" "(DEFUN HALF x"
@@ -158,7 +162,7 @@
     (:GRASPS "(DEFUN HALF (x)" "(DEFUN SQRT (x)"
      "grasps.lisp:4: DEFUN SQRT: SQRT is already an operator")
     (:GRASPS "(/ x 2)" "(/ y 2)"
-     "grasps.lisp:5: DEFUN HALF: unknown name Y; known are U, V, the gripper's dimensions and what LET* binds")
+     "grasps.lisp:5: DEFUN HALF: unknown name Y; known are U, V, the gripper's dimensions, a helper's parameters and what LET* binds")
     (:GRASPS "(/ x 2)" "(HALF x)"
      "grasps.lisp:5: DEFUN HALF: unknown operator HALF in (HALF X); operators are + - * / SQRT EXPT MIN MAX ABS POSIT DIST COND IF LET LET*")
     (:GRASPS "(DEFUN HALF (x)" "(DEFINE HALF (x)"
@@ -197,7 +201,7 @@
     (:GRASPS "(* 2 v)" ""
      "grasps.lisp:10: GRASP G, WRENCH: 5 entries, six are needed: along N O A, about N O A (OFFSET: N1 N2 O1 O2 A1 A2)")
     (:GRASPS "(* 2 v)" "(* 2 w)"
-     "grasps.lisp:11: GRASP G, WRENCH: unknown name W; known are U, V, the gripper's dimensions and what LET* binds")
+     "grasps.lisp:11: GRASP G, WRENCH: unknown name W; known are U, V, the gripper's dimensions, a helper's parameters and what LET* binds")
     (:GRASPS "(* 2 v)" "(SIN v)"
      "grasps.lisp:11: GRASP G, WRENCH: unknown operator SIN (did you mean MIN?) in (SIN V); operators are + - * / SQRT EXPT MIN MAX ABS POSIT DIST COND IF LET LET* HALF")
     (:GRASPS "(* 2 v)" "(SQRT 2 v)"
@@ -266,4 +270,11 @@
     (is (equal '("grasps.lisp:6: GRASP G, PALM: the palm faces A1, which is not one of USED-SURFACES"
                  "rules.lisp:2: RULE OBVIOUS, clause 1: SMALL takes 2 surfaces, here it has 1"
                  "rules.lisp:16: RULE END, action 1: KEEP is (KEEP BEST)")
-               reports))))
+               reports)))
+  (is (equal '("grasps.lisp:6: GRASP G, PALM: A9: PALM is one of N1 N2 O1 O2 A1 A2"
+               "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: a face, and its place on it along the two other axes, as (N1 0 0)")
+             (mapcar #'princ-to-string
+                     (nth-value 1 (text-knowledge
+                                   *good-rules*
+                                   (replace-once (replace-once *good-grasps* "PALM A2" "PALM A9")
+                                                 "((N1 0 0) (N2 0 0))" "((N1 0) (N2 0 0))")))))))

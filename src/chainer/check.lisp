@@ -20,6 +20,7 @@ WORDS as strings, the texts of its SURFACES, sorted."
                         collect (symbol-name word)))
          (negations (count-if (lambda (word) (or (name= word "NO") (name= word "NOT"))) names)))
     (and words
+         (notany #'loose-surface-p names)
          (make-use number name place words
                    (sort (mapcar #'form-text list) #'string<)
                    form (plusp negations)))))

@@ -11,6 +11,10 @@ its rule base.  GIVEN is true if the input provides it."
   (index 0 :type (unsigned-byte 24))
   (given nil))
 
+(defmethod print-object ((predicate predicate) stream)
+  (print-unreadable-object (predicate stream :type t)
+    (format stream "~{~a~^ ~}" (predicate-words predicate))))
+
 (defun predicate-text (predicate)
   "Return the words of PREDICATE as one string."
   (format nil "~{~a~^ ~}" (predicate-words predicate)))
@@ -43,6 +47,10 @@ first.  CLIENT is whatever the actions of the lower level need."
   (found 0 :type fixnum)
   (log '() :type list)
   (client nil))
+
+(defmethod print-object ((memory memory) stream)
+  (print-unreadable-object (memory stream :type t)
+    (format stream "~d predicate~:p with facts" (memory-used-count memory))))
 
 (declaim (inline fact-bits known-p))
 (defun fact-bits (arity packed)

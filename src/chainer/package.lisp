@@ -23,7 +23,7 @@ one generic function.")
    #:rulebase #:build-rulebase #:rulebase-rules #:rulebase-predicates
    #:find-rule #:find-predicate #:rulebase-client
    ;; actions
-   #:compile-action #:define-action #:action-verbs #:parse-surfaces #:parse-sentence
+   #:loose-surface-p #:list-surfaces #:compile-action #:define-action #:action-verbs #:parse-surfaces #:parse-sentence
    #:term-variable-p #:term-value #:instantiate #:*rule*
    ;; running
    #:run-rules #:stop #:stop-verdict #:stop-rule #:stop-words #:make-stop

@@ -38,6 +38,10 @@ CLIENT is what the actions of the lower level are compiled against."
   (table (make-hash-table :test #'equal))
   (client nil))
 
+(defmethod print-object ((rulebase rulebase) stream)
+  (print-unreadable-object (rulebase stream :type t)
+    (format stream "~d rules" (length (rulebase-rules rulebase)))))
+
 (defun find-rule (rulebase name)
   "Return the rule of RULEBASE that has NAME, or NIL."
   (find name (rulebase-rules rulebase) :key #'rule-name :test #'string-equal))
@@ -129,6 +133,17 @@ have yet are allowed if BIND is true.  Complains, and returns NIL and true, of a
                      (predicate-text predicate) (predicate-arity predicate) arity))
           (t predicate))))
 
+(defun loose-surface-p (name)
+  "True if NAME, a word of a sentence, can only be meant as a surface: X1 to Z2, S1 and so on."
+  (and (namep name)
+       (or (surface-index name)
+           (and (variable-name-p name) (every #'digit-char-p (subseq (symbol-name name) 1))))))
+
+(defun list-surfaces (words &optional list)
+  "Return the sentence WORDS, those that are surfaces put into a list at its end, before LIST."
+  (append (remove-if #'loose-surface-p words)
+          (list (append (remove-if-not #'loose-surface-p words) list))))
+
 (defun parse-sentence (words form bind)
   "Return the predicate and the terms of the sentence WORDS, the words of FORM that matter: names,
 the last perhaps a list of surfaces.  Returns NIL after a complaint."
@@ -137,6 +152,9 @@ the last perhaps a list of surfaces.  Returns NIL after a complaint."
          (names (if list (butlast words) words)))
     (cond ((null names)
            (complain form "an empty sentence"))
+          ((find-if #'loose-surface-p names)
+           (complain form "surfaces stand in a list of their own, at the end: ~a"
+                     (form-text (list-surfaces names list))))
           ((some (lambda (name) (not (namep name))) names)
            (complain form "~a: a sentence is made of words, and may end in one list of surfaces"
                      (form-text form)))
