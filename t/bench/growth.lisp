@@ -92,6 +92,16 @@ remember have NUMBER at the end of their names."
     (growth-figures label '(1 10 100)
                     (lambda (factor) (knowledge-of (rules-times factor copier) grasps)))))
 
+(defun preparing-growth ()
+  "Return the figures of checking and preparing ever more rules, already read, and the grasps."
+  (let ((grasps (shipped-grasps))
+        (factors '(1 10 100))
+        (*batches* (min *batches* 7)))
+    (measure-together (loop for factor in factors collect (format nil "preparing rules, ×~d" factor))
+                      (loop for factor in factors
+                            collect (let ((rules (rules-times factor #'copy-of-rules)))
+                                      (lambda () (knowledge-of rules grasps)))))))
+
 (defun grasps-growth ()
   (append (growth-figures "grasps, tried as before," '(1 10)
                           (lambda (factor) (knowledge-of (shipped-rules) (grasps-times factor))))

@@ -88,6 +88,7 @@ a busy machine disturbs least."
   (print-head "growth, whole plan of the pencil unless said")
   (print-figures (rules-growth "rules that can't fire," #'barred-copy-of-rules))
   (print-figures (rules-growth "rules that fire," #'copy-of-rules))
+  (print-figures (preparing-growth))
   (let ((grasps (grasps-growth)))
     (print-figures (subseq grasps 0 2))
     (print-figures (subseq grasps 2)))
