@@ -224,3 +224,16 @@ Returns what the rules said, a list of strings, and the stop."
     (is (= 3 (length reports)) "~{~a~%~}" reports)
     (is (equal '("B") (map 'list #'supergrip-chainer:rule-name
                            (supergrip-chainer:rulebase-rules rulebase))))))
+
+(test suggestions-are-for-slips-of-the-pen
+  (let* ((forms (rule-forms (format nil "~{(RULE R~d (IF (P~:*~dX)) (THEN (REMEMBER P~:*~d)))~}"
+                                    (loop for i from 1000 below 3000 collect i))))
+         (problems (nth-value 1 (supergrip-data:with-problems
+                                  (supergrip-chainer:check-rules forms *inputs*))))
+         (suggestions (count-if (lambda (problem)
+                                  (search "did you mean" (supergrip-data:problem-text problem)))
+                                problems)))
+    (is (= 2000 (length problems)))
+    (is (search "nothing provides P1000X (did you mean P1000?)"
+                (supergrip-data:problem-text (first problems))))
+    (is (< 10 suggestions 1000) "~d suggestions among 2000 unknown names" suggestions)))

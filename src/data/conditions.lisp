@@ -96,9 +96,13 @@ A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL."
               *problems*))))
   nil)
 
+(defvar *looks-left* nil
+  "How many names SUGGESTION may still look at, NIL for any number.  Where thousands of names are
+unknown, they are no slips of the pen.")
+
 (defmacro with-problems (&body body)
   "Run BODY; return its value and the list of the problems that it complained of, in order."
-  `(let ((*problems* '()) (*noted* (make-hash-table :test #'equal)))
+  `(let ((*problems* '()) (*noted* (make-hash-table :test #'equal)) (*looks-left* 200000))
      (let ((value (progn ,@body)))
        (values value (reverse *problems*)))))
 

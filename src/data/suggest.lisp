@@ -52,7 +52,9 @@ more than MOST."
   "Return a phrase that suggests the string of KNOWN that TEXT was probably meant to be, or \"\"."
   (let* ((text (coerce (subseq text 0 (min 60 (length text))) 'simple-string))
          (best nil) (least 4))
-    (when (> (length text) 2)           ; any two short names are close
+    (when (and (> (length text) 2)      ; any two short names are close
+               (or (null *looks-left*)
+                   (plusp (decf *looks-left* (length known)))))
       (dolist (word known)
         (let* ((most (min (1- least) (max 1 (floor (length word) 3))))
                (distance (distance-within text (coerce word 'simple-string) most)))
