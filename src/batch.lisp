@@ -27,7 +27,7 @@ Signals a SYSTEM-FAILURE if the one can't be read or the other not written."
          (source (input-source input nil))
          (notation (or (setf (input-notation input) (batch-notation batch))
                        (setf (input-notation input) (notation-of source)))))
-    (unless (batch-format batch)
+    (unless (or (batch-format batch) (null (skip-to-json source)))
       (setf (batch-format batch) notation))
     (let ((*notation* notation))
       (if (eq notation :json)
@@ -72,7 +72,9 @@ or if a signal came."
 (defun problems-of (condition source input)
   "Return the problems of CONDITION, the syntax error of a record that has been skipped."
   (let ((problems (input-error-problems condition)))
-    (when (and (input-cut input) (search "never closed" (problem-text (first problems))))
+    (when (and (input-cut input)
+               (find-if (lambda (end) (search end (problem-text (first problems))))
+                        '("never closed" "nothing stands")))
       (setf (problem-text (first problems))
             (format nil "~a before line ~d, which starts another record"
                     (problem-text (first problems)) (source-line source))))

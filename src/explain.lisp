@@ -105,20 +105,33 @@ input, where it comes from."
                      (figure (knowledge-slippery-u knowledge))))
             (t "an input")))))
 
+(defvar *derived* nil "A table from facts to their derivations, while a derivation is made, or NIL.")
+
 (defun derive (plan predicate packed)
   "Return the derivation of a fact that is known at the end of PLAN."
-  (let ((event (fact-event plan predicate packed)))
-    (if (null event)
-        (make-derivation :predicate predicate
-                         :packed (find (pack-mask packed) (facts (plan-memory plan) predicate)
-                                       :key #'pack-mask)
-                         :note (input-note predicate packed plan))
-        (let* ((rule (event-rule event (plan-rulebase plan)))
-               (binding (event-binding event)))
-          (multiple-value-bind (predicate stored) (event-fact event (plan-rulebase plan))
-            (make-derivation :predicate predicate :packed stored :rule rule :binding binding
-                             :parts (loop for clause in (rule-clauses rule)
-                                          collect (clause-part clause rule binding plan))))))))
+  (let ((*derived* (or *derived* (make-hash-table :test #'equal)))
+        (fact (cons (predicate-index predicate) (pack-mask packed))))
+    ;; What many facts follow from is derived once.
+    (or (gethash fact *derived*)
+        (setf (gethash fact *derived*)
+              (let ((event (fact-event plan predicate packed)))
+                (if event
+                    (derive-event event plan)
+                    (derive-input predicate packed plan)))))))
+
+(defun derive-input (predicate packed plan)
+  (make-derivation :predicate predicate
+                   :packed (find (pack-mask packed) (facts (plan-memory plan) predicate)
+                                 :key #'pack-mask)
+                   :note (input-note predicate packed plan)))
+
+(defun derive-event (event plan)
+  (let ((rule (event-rule event (plan-rulebase plan)))
+        (binding (event-binding event)))
+    (multiple-value-bind (predicate packed) (event-fact event (plan-rulebase plan))
+      (make-derivation :predicate predicate :packed packed :rule rule :binding binding
+                       :parts (loop for clause in (rule-clauses rule)
+                                    collect (clause-part clause rule binding plan))))))
 
 (defun clause-part (clause rule binding plan)
   "Return what met CLAUSE of RULE under BINDING."
@@ -226,10 +239,12 @@ is not told again."
 ;;; WHY-NOT, rules
 
 (defstruct (refusal (:include explanation))
-  "Why RULE did not fire.  FIRED holds its bindings if it did; STOP the STOP that ended the run before
-it; else NUMBER counts its CLAUSE that failed, BINDINGS are those that met all clauses before, and
-BLOCKS, for a negation, the derivations of the facts that contradict it under each."
-  rule (fired '()) stop number clause (bindings '()) (blocks '()))
+  "Why RULE did not fire, or not for what was asked about.  ALONE is the name of the grasp that was
+tried without rules.  FIRED holds the rule's bindings if it did fire; STOP is the STOP that ended the
+run before it, or before its action; else NUMBER counts its CLAUSE that failed, BINDINGS are those
+that met all clauses before, BLOCKS, for a negation, the derivations of the facts that contradict it
+under each, and ELSEWHERE is true if it fired for something else."
+  rule alone (fired '()) stop number clause (bindings '()) (blocks '()) elsewhere)
 
 (defun memory-before (plan index)
   "Return the memory of PLAN as it was when the rule with INDEX was tried, and the STOP that ended
@@ -243,19 +258,30 @@ the run before it, or NIL."
 (defun refuse-rule (rule plan)
   "Return the REFUSAL of RULE in PLAN."
   (multiple-value-bind (memory stop) (memory-before plan (rule-index rule))
-    (if stop
-        (make-refusal :rule rule :stop stop)
-        (or (failing-clause rule memory plan (constantly t))
-            (make-refusal :rule rule :fired (rule-bindings rule memory))))))
+    (cond ((plan-alone plan) (make-refusal :rule rule :alone (plan-alone plan)))
+          (stop (make-refusal :rule rule :stop stop))
+          ((failing-clause rule memory plan (constantly t)))
+          (t (make-refusal :rule rule :fired (rule-bindings rule memory))))))
 
 (defun refuse-conclusion (rule predicate packed plan)
   "Return the REFUSAL of RULE in PLAN as far as it might have said PREDICATE of the faces of PACKED."
   (multiple-value-bind (memory stop) (memory-before plan (rule-index rule))
-    (let ((terms (action-terms (find predicate (rule-actions rule) :key #'action-predicate))))
-      (or (and stop (make-refusal :rule rule :stop stop))
-          (failing-clause rule memory plan
-                          (lambda (binding) (may-bind-p terms binding (pack-mask packed))))
-          (make-refusal :rule rule :fired (rule-bindings rule memory))))))
+    (let ((actions (remove predicate (rule-actions rule) :key #'action-predicate :test-not #'eq)))
+      (flet ((wanted-p (binding)
+               (some (lambda (action)
+                       (may-bind-p (action-terms action) binding (pack-mask packed)))
+                     actions)))
+        (if (or stop (plan-alone plan))
+            (refuse-rule rule plan)
+            (let ((refusal (failing-clause rule memory plan #'wanted-p))
+                  (bindings (rule-bindings rule memory)))
+              (cond (refusal
+                     (setf (refusal-elsewhere refusal) (and bindings t))
+                     refusal)
+                    (t (make-refusal :rule rule :fired bindings
+                                     :stop (and (plan-stop plan)
+                                                (eq rule (stop-rule (plan-stop plan)))
+                                                (plan-stop plan)))))))))))
 
 (defun may-bind-p (terms binding faces)
   "True if those of TERMS that BINDING binds are among FACES, a set, and the others may be."
@@ -289,7 +315,10 @@ first clause that fails for all of them.  NIL if none does."
 
 (defmethod write-answer ((answer refusal) stream)
   (let ((rule (refusal-rule answer)))
-    (cond ((refusal-fired answer) (write-fired answer stream))
+    (cond ((refusal-alone answer)
+           (format stream "RULE ~a did not run: ~a was tried alone.~%" (rule-name rule)
+                   (refusal-alone answer)))
+          ((refusal-fired answer) (write-fired answer stream))
           ((refusal-stop answer)
            (format stream "RULE ~a was not reached: RULE ~a ended the run, ~a.~%" (rule-name rule)
                    (rule-name (stop-rule (refusal-stop answer)))
@@ -303,8 +332,9 @@ first clause that fails for all of them.  NIL if none does."
 
 (defun write-fired (refusal stream)
   (let ((rule (refusal-rule refusal)))
-    (format stream "RULE ~a did fire~:[~;~:*, with ~{~a~^; ~}~].~%" (rule-name rule)
-            (binding-texts rule (refusal-fired refusal)))))
+    (format stream "RULE ~a did fire~:[~;~:*, with ~{~a~^; ~}~]~@[, and ended the run before, ~a~].~%"
+            (rule-name rule) (binding-texts rule (refusal-fired refusal))
+            (and (refusal-stop refusal) (stop-text (refusal-stop refusal))))))
 
 (defun binding-texts (rule bindings)
   "Return BINDINGS of RULE in words, those without variables left out."
@@ -313,8 +343,10 @@ first clause that fails for all of them.  NIL if none does."
 (defun write-failing-clause (refusal stream)
   (let* ((rule (refusal-rule refusal))
          (clause (refusal-clause refusal)))
-    (format stream "RULE ~a did not fire: clause ~d, ~a, fails~:[~; for all bindings before it~].~%"
-            (rule-name rule) (refusal-number refusal) (form-text (clause-form clause))
+    (format stream "RULE ~a ~:[did not fire~;did fire, but not for this~]: clause ~d, ~a, fails~
+                    ~:[~; for all bindings before it~].~%"
+            (rule-name rule) (refusal-elsewhere refusal)
+            (refusal-number refusal) (form-text (clause-form clause))
             (> (refusal-number refusal) 1))
     (write-tried-bindings rule (refusal-bindings refusal) stream)
     (if (clause-negated clause)
@@ -322,7 +354,8 @@ first clause that fails for all of them.  NIL if none does."
           (format stream "  In its way stands~%")
           (write-derivation block stream 2 '())
           (terpri stream))
-        (format stream "  ~a~%" (missing-text clause (> (refusal-number refusal) 1))))))
+        (format stream "  ~a~%" (missing-text clause (or (> (refusal-number refusal) 1)
+                                                         (refusal-elsewhere refusal)))))))
 
 (defun write-tried-bindings (rule bindings stream)
   (let ((texts (binding-texts rule bindings)))

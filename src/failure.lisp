@@ -8,7 +8,7 @@
       (let* ((digits (max 0 (- 3 (floor (log (max (abs number) 1d-3) 10)))))
              (text (format nil "~,vf" digits number)))
         (string-right-trim "." (string-right-trim "0" text)))
-      (format nil "~,3e" number)))
+      (format nil "~,3,,,,,'ee" number)))
 
 ;;; Conditions
 
@@ -131,6 +131,8 @@
             always (> (aref registers register) 0d0))
     (arithmetic-error () nil)))
 
+(defconstant +most-friction+ 1d6 "No friction above this is asked for.")
+
 (defun closing-friction (grasp registers)
   "Return the least friction above that in REGISTERS that closes GRASP, or NIL."
   (let ((low (aref registers +u+))
@@ -162,7 +164,9 @@
   "Return the axis on which the load exceeds what the grasp bears by most, and the ratio."
   (let ((worst nil) (most 0))
     (dotimes (axis 6 (values worst most))
-      (let ((ratio (/ (aref (attempt-load attempt) axis) (aref (attempt-wrench attempt) axis))))
+      (let ((ratio (handler-case (/ (aref (attempt-load attempt) axis)
+                                    (aref (attempt-wrench attempt) axis))
+                     (arithmetic-error () most-positive-double-float))))
         (when (> ratio most)
           (setf worst axis most ratio))))))
 
@@ -197,7 +201,9 @@ does, or if it is no less than LEAST, unless that is NIL."
   (let* ((u (aref registers +u+))
          (needed (and (or (null least)
                           ;; One look here saves most of the searches.
-                          (closed-at-p grasp registers (/ u (- 1 (- least +tie+)))))
+                          (let ((limit (- 1 (- least +tie+))))
+                            (and (< u (* limit +most-friction+))
+                                 (closed-at-p grasp registers (/ u limit)))))
                       (progn (setf (aref registers +u+) u)
                              (closing-friction grasp registers)))))
     (if needed (- 1 (/ u needed)) 1)))

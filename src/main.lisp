@@ -70,6 +70,8 @@ Examples:
 (defun parse-command-line (arguments)
   "Return a plist of the options in ARGUMENTS, a list of strings, and the list of the files."
   (let ((options '()) (files '()))
+    (when (eq arguments :unreadable)
+      (misused "the command line, or the name of a file in it, is not text in the locale's encoding"))
     (loop while arguments
           do (let ((argument (pop arguments)))
                (cond ((string= argument "--")
@@ -119,8 +121,8 @@ of REST, the arguments after it."
 
 (defun text-number (text)
   "Return the number that TEXT is, or NIL."
-  (handler-case (let ((number (read-datum (string-source text))))
-                  (and (realp number) number))
+  (handler-case (let ((data (read-all (string-source text))))
+                  (and (realp (first data)) (null (rest data)) (first data)))
     (syntax-error () nil)))
 
 ;;; Standard error
@@ -162,7 +164,10 @@ run of more than two seconds has come."
 Signals a KNOWLEDGE-ERROR, or a SYSTEM-FAILURE if one can't be opened."
   (flet ((readable (file)
            (close-descriptor (open-descriptor file))
-           (uiop:parse-native-namestring file)))
+           (let ((path (uiop:parse-native-namestring file)))
+             (when (uiop:directory-exists-p (uiop:ensure-directory-pathname path))
+               (error 'read-failure :what "can't be read" :errno +is-directory+))
+             path)))
     (if (or rules grasps)
         (load-knowledge :rules (if rules (readable rules) (shipped-file "rules.lisp"))
                         :grasps (if grasps (readable grasps) (shipped-file "grasps.lisp")))

@@ -17,7 +17,7 @@
 (defstruct (plan (:constructor %make-plan) (:copier nil))
   "What was decided for a box, and all that led to it."
   (box nil :type box) (knowledge nil :type knowledge) (gamma 0.5d0 :type double-float)
-  (stop nil) (best nil) (log '() :type list)
+  (stop nil) (best nil) (log '() :type list) (facts nil :type (or null saved-facts))
   (alone nil))                          ; the name of the grasp that was tried without rules
 
 (defmethod print-object ((plan plan) stream)
@@ -91,16 +91,14 @@ Rules that end without KEEP or CANT keep the best."
                        :gamma (attempt-gamma attempt) :stop stop :alone alone
                        :best (and (not (and stop (eq (stop-verdict stop) :cant)))
                                   (attempt-best attempt))
-                       :log (nreverse (memory-log memory)))
+                       :log (nreverse (memory-log memory)) :facts (save-facts memory))
       (give-back memory knowledge))))
 
 (defun plan-memory (plan)
-  "Return a memory of all that is known at the end of PLAN: its rules run again."
-  (let* ((knowledge (plan-knowledge plan))
-         (memory (prepare-memory (new-memory knowledge) (plan-box plan) knowledge
-                                 (plan-gamma plan))))
-    (unless (plan-alone plan)
-      (run-rules (knowledge-rulebase knowledge) memory))
+  "Return a memory that holds all that is known at the end of PLAN."
+  (let* ((rulebase (knowledge-rulebase (plan-knowledge plan)))
+         (memory (make-memory rulebase)))
+    (restore-facts memory (rulebase-predicates rulebase) (plan-facts plan))
     memory))
 
 (defun check-gamma (gamma)

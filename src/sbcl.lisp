@@ -68,6 +68,8 @@ does not wait for the record in hand."
 
 ;;; Files
 
+(defconstant +is-directory+ 21 "The error number EISDIR.")
+
 (defun open-descriptor (file)
   "Open FILE, a string, for reading; return its descriptor."
   (multiple-value-bind (descriptor errno) (sb-unix:unix-open file sb-unix:o_rdonly 0)
@@ -122,8 +124,9 @@ and the exponent E of 0.D x 10^E."
 ;;; The process
 
 (defun command-arguments ()
-  "Return the arguments of the command line, without the program and what SBCL itself takes."
-  (rest sb-ext:*posix-argv*))
+  "Return the arguments of the command line, without the program and what SBCL itself takes; :UNREADABLE
+if they are no text in the locale's encoding: SBCL then has none at all."
+  (if sb-ext:*posix-argv* (rest sb-ext:*posix-argv*) :unreadable))
 
 (defun end-process (status)
   "End the process at once with STATUS; what was not written by WRITE-OCTETS is lost."

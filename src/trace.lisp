@@ -179,10 +179,17 @@ and the memory that the rules run on."
 
 (defun rule-counts (&optional (plan *plan*))
   "Print and return how often each rule of PLAN was matched and fired: a list of (NAME MATCHES FIRINGS
-FACTS).  MATCHES counts the bindings that met its first clause, its first two, and so on; FIRINGS
-its bindings; FACTS what it added."
+FACTS), empty if a grasp was tried alone.  MATCHES counts the bindings that met its first clause, its
+first two, and so on; FIRINGS its bindings; FACTS what it added."
   (let* ((plan (need-plan plan))
-         (counts '()))
+         (counts (and (not (plan-alone plan)) (count-rules plan))))
+    (format t "~12a ~8@a ~8@a ~8@a~%" "rule" "matches" "firings" "facts")
+    (format t "~:{~12a ~8d ~8d ~8d~%~}" counts)
+    counts))
+
+(defun count-rules (plan)
+  "Return what RULE-COUNTS does, from running the rules again."
+  (let ((counts '()))
     (observed-plan (plan-box plan) (plan-knowledge plan) (plan-gamma plan)
                    (lambda (unfinished memory)
                      (declare (ignore unfinished))
@@ -196,9 +203,7 @@ its bindings; FACTS what it added."
                          (:action (incf (fourth (first counts))
                                         (count-if #'integerp (fourth arguments))))
                          (:stop nil)))))
-    (format t "~12a ~8@a ~8@a ~8@a~%" "rule" "matches" "firings" "facts")
-    (format t "~:{~12a ~8d ~8d ~8d~%~}" (reverse counts))
-    (reverse counts)))
+    (nreverse counts)))
 
 (defun count-matches (rule memory)
   (loop for count from 1 to (length (rule-clauses rule))

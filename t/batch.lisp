@@ -90,6 +90,9 @@
                        "line 1, column 15: this parenthesis is never closed before line 2, which starts another record" "grasp")
             ("one word" ("hello world
 " ,pencil) "line 1, column 1: HELLO is not a box description: it is a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)" "grasp")
+            ("a quote without a form" ("((SIZE 12 2 2) '
+" ,pencil) "line 1, column 16: nothing stands after this ' before line 2, which starts another record"
+                                       "grasp")
             ("an open end" (,pencil "
 ((SIZE 12") "grasp" "line 2, column 2: this parenthesis is never closed"))
           do (let ((statuses (statuses (answers text))))
@@ -202,6 +205,10 @@
                                   ,(subseq (one-line *pencil*) 1))
        :planned)
       ("a byte order mark" (#(239 187 191) ,(one-line *pencil*)) :planned)
+      ("friction near the bounds" ,(with "0.8" "1e300") :planned)
+      ("a thin, heavy box" ,(with "12 2 2) (WEIGHT 0.2) (u 0.8) (v 0.2) (CONSTRAINED Z2 X1)"
+                                  "13 40 1e-300) (WEIGHT 1e10) (u 0.8) (v 0.2) (CONSTRAINED)")
+       "NO GRASP IS POSSIBLE")
       ("a subnormal" ,(with "0.8" "5e-324") "out of range")))
   "Name, text, and what must come: nothing, :PLANNED, :ANY, or a part of the reason of the error.")
 

@@ -174,6 +174,50 @@ Returns what the rules said, a list of strings, and the stop."
 (setf supergrip-chainer::*action-verbs* (remove "SHOUT" (supergrip-chainer:action-verbs)
                                                 :test #'string=))
 
+(defvar *asked* '() "What the action ASK was told.")
+
+(supergrip-chainer:define-action :ask (action rulebase)
+  ;; Asks for the bindings of the rule while it runs, and notes how often it is called.
+  (let ((rule supergrip-chainer:*rule*))
+    (setf (supergrip-chainer:action-function action)
+          (lambda (memory binding)
+            (declare (ignore binding))
+            (push (length (supergrip-chainer:rule-bindings rule memory)) *asked*)
+            nil))))
+
+(setf supergrip-chainer::*action-verbs* (remove "ASK" (supergrip-chainer:action-verbs)
+                                                :test #'string=))
+
+(test an-action-may-ask-and-is-called-for-every-binding
+  (let ((*asked* '()))
+    (is (= 3 (length (run-text "(RULE A (IF (OPPOSED (s1 s2))) (THEN (ASK) (REMEMBER P (s1 s2))))"
+                               *pairs*))))
+    (is (equal '(6 6 6 6 6 6) *asked*))))
+
+(test rules-may-have-many-actions
+  (let ((said (run-text (format nil "(RULE A (IF (SLIPPERY)) (THEN~{ (REMEMBER P~d)~}))"
+                                (loop for i below 1000 collect i))
+                        '((slippery)))))
+    (is (= 1000 (length said)))
+    (is (equal "A: P999" (first (last said))))))
+
+(test what-is-remembered-has-its-arity
+  (let* ((rulebase (build "(RULE A (IF (OPPOSED (s1 s2))) (THEN (REMEMBER P)))"))
+         (memory (supergrip-chainer:make-memory rulebase)))
+    (signals error
+      (supergrip-chainer:remember memory (supergrip-chainer:find-predicate rulebase '("OPPOSED"))
+                                  (supergrip-chainer:pack '(0))))))
+
+(test saved-facts-are-restored
+  (let* ((rulebase (build *sleepers*))
+         (memory (supergrip-chainer:make-memory rulebase))
+         (other (supergrip-chainer:make-memory rulebase))
+         (predicates (supergrip-chainer:rulebase-predicates rulebase)))
+    (run-on-facts rulebase memory (append *pairs* '((small y2 y1) (constrained y2))))
+    (supergrip-chainer:restore-facts other predicates (supergrip-chainer:save-facts memory))
+    (is (equal (supergrip-chainer:assertions memory predicates)
+               (supergrip-chainer:assertions other predicates)))))
+
 (test a-new-action-is-attached-from-outside
   (is (eq :shouted (supergrip-chainer:stop-verdict
                     (nth-value 1 (run-text "(RULE A (IF (SLIPPERY)) (THEN (SHOUT)))"

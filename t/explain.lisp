@@ -34,7 +34,7 @@
                "  LARGE is an input, and the box does not give it for these.")
              (printed (supergrip:how '(wide (y2 y1)) (pencil-plan)))))
   (is (equal '("(PARALLEL (Z2 Z1)) is not known."
-               "RULE SURFACES1 did not fire: clause 3, (NOT CONSTRAINED (S2)), fails for all bindings before it."
+               "RULE SURFACES1 did fire, but not for this: clause 3, (NOT CONSTRAINED (S2)), fails for all bindings before it."
                "  Tried: S1 = Z1, S2 = Z2"
                "  In its way stands"
                "    (CONSTRAINED (Z2)): input, the box says so")
@@ -375,6 +375,42 @@
     (is (= 6 (length (supergrip:knowledge-grasps supergrip:*knowledge*))))
     (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp (pencil-plan))))
     (signals supergrip:no-rule-error (supergrip:forget 'grip4))))
+
+(test how-tells-why-a-rule-said-no-more
+  (flet ((answer (fact &optional (plan (pencil-plan)))
+           (printed (supergrip:how fact plan))))
+    (with-knowledge-restored
+      (handler-bind ((supergrip:knowledge-warning #'muffle-warning))
+        (supergrip:edit '(rule grip0 (if (constrained (s1)) (small (s2 s3)))
+                          (then (remember w (s1)) (remember w (s2))))
+                        :before 'grip1)
+        (supergrip:edit '(rule grip11 (if (object has parallel surfaces))
+                          (then (keep best) (remember late)))))
+      (is (find "RULE GRIP0 did not fire: clause 2, (SMALL (S2 S3)), fails for all bindings before it."
+                (answer '(w (y1))) :test #'string=)
+          "the second action might have said so")
+      (is (equal '("(LATE) is not known." "RULE GRIP11 did fire, and ended the run before, KEEP BEST.")
+                 (answer '(late)))))
+    (is (equal '("(PARALLEL (X1 X2)) is not known."
+                 "RULE SURFACES1 did fire, but not for this: clause 3, (NOT CONSTRAINED (S2)), fails for all bindings before it.")
+               (subseq (answer '(parallel (x1 x2))) 0 2)))
+    (is (equal '("(PARALLEL (Y2 Y1)) is not known."
+                 "RULE SURFACES1 did not run: PINCH-3-PARALLEL was tried alone.")
+               (answer '(parallel (y2 y1)) (supergrip:try-grasp "PINCH-3-PARALLEL" (paper-box)))))))
+
+(test what-many-facts-follow-from-is-derived-once
+  (with-knowledge-restored
+    (handler-bind ((supergrip:knowledge-warning #'muffle-warning))
+      (loop for i from 1 to 40
+            do (supergrip:edit `(rule ,(make-symbol (format nil "A~d" i))
+                                      (if (,(if (= i 1) 'opposed (make-symbol (format nil "P~d" (1- i))))
+                                           (s1 s2))
+                                          (,(if (= i 1) 'opposed (make-symbol (format nil "P~d" (1- i))))
+                                           (s3 s4)))
+                                      (then (remember ,(make-symbol (format nil "P~d" i)) (s1 s2))))
+                               :before 'grip1)))
+    ;; From its definition the tree has 2^40 leaves.
+    (is (< 80 (length (printed (supergrip:how '(p40 (z1 z2)) (pencil-plan)))) 1000))))
 
 (test a-suggestion-that-is-no-matching-is-told
   (with-knowledge-restored

@@ -60,6 +60,7 @@
           ("--rules needs the name of a file" "--rules" "")
           ("--check takes no value" "--check=yes")
           ("--gamma is a number from 0, forces alone, to 1, velocities alone, not 1.5" "--gamma" "1.5")
+          ("not 0.5 foo" "--gamma" "0.5 foo") ("not 40 41" "--number-limit" "40 41")
           ("not NaN" "--gamma" "NaN") ("not #.(quit)" "--gamma" "#.(quit)")
           ("--depth-limit is a whole number from 1 to 1000, not 1001" "--depth-limit" "1001")
           ("--record-limit is a whole number" "--record-limit" "0.5")
@@ -117,7 +118,11 @@
       (is (eql 65 status))
       (is (equal "" output))
       (is (search ":1:37: # can't stand in a name or a number" errors))))
-  (is (member (status-of *pencil* "--rules" "/") '(65 66))))
+  (is (eql 66 (status-of *pencil* "--rules" "/")))
+  (destructuring-bind (status output errors) (shell "\"$0\" --rules $'r\\xff.lisp' < /dev/null")
+    (is (eql 64 status))
+    (is (equal "" output))
+    (is (search "is not text in the locale's encoding" errors))))
 
 (test files-are-read-in-turn
   (with-text-file (a *pencil*)
@@ -130,6 +135,11 @@
                    errors)))
       (is (eql 66 (first (shell "\"$0\" /no/such/file \"$1\"" (format nil "~a" a)))))
       (is (eql 66 (first (shell "echo '((' | \"$0\" / -"))) "66 before 65"))))
+
+(test an-empty-file-does-not-choose-the-format
+  (with-text-file (blank (format nil " ~%"))
+    (with-text-file (json *json-pencil*)
+      (is (eql #\{ (char (second (shell "\"$0\" \"$1\" \"$2\"" blank json)) 0))))))
 
 (test statuses-of-boxes
   (is (eql 0 (status-of "")))

@@ -270,6 +270,28 @@
   (dolist (gamma '(-0.1 2 "half" nil))
     (signals supergrip:gamma-error (supergrip::plan (paper-box) :gamma gamma))))
 
+(defun extreme-box (state)
+  "Return the description of a box whose numbers are of any size that may be."
+  (flet ((extreme (most) (* (expt 10d0 (- (random (* 2 most) state) most)) (+ 1 (random 9 state)))))
+    (let ((most (expt 10 (random 3 state))))
+      `((size ,@(loop repeat 3 collect (extreme (if (= most 100) 299 most))))
+        (weight ,(extreme most)) (u ,(extreme most)) (v ,(extreme (if (= most 100) 299 most)))
+        (constrained ,@(loop for face in '(x1 y1 z2) when (zerop (random 4 state)) collect face))
+        (force-needed (1 1 1 1 1 ,(random 1d0 state)))
+        (velocity-needed (1 1 1 1 1 ,(expt 10d0 (- (random 299 state)))))))))
+
+(test extreme-boxes-get-a-verdict-in-words
+  (let ((state (sb-ext:seed-random-state 77)))
+    (is (null (first-fault
+               (lambda (box)
+                 (handler-case (let ((plan (supergrip::plan box)))
+                                 (supergrip:write-transcript plan (make-broadcast-stream))
+                                 (dolist (candidate (supergrip:plan-rejected plan))
+                                   (supergrip:candidate-failure candidate plan))
+                                 nil)
+                   (error (condition) (princ-to-string condition))))
+               (loop repeat 3000 collect (extreme-box state)))))))
+
 (test plans-are-the-same-in-several-threads
   (let* ((boxes (random-boxes 400 9))
          (alone (mapcar (lambda (box) (plan-figures (supergrip::plan box))) boxes))

@@ -13,17 +13,17 @@ WORDS what it said, as strings."
 (declaim (inline log-event))
 (defun log-event (memory rule action binding)
   "Note in the log of MEMORY that RULE did its ACTION, a number, under BINDING."
-  (declare (type memory memory) (type packed binding) (type (unsigned-byte 8) action))
-  (push (logior binding (ash action 24) (ash (the (unsigned-byte 24) (rule-index rule)) 32))
+  (declare (type memory memory) (type packed binding) (type (unsigned-byte 16) action))
+  (push (logior binding (ash action 24) (ash (the (unsigned-byte 22) (rule-index rule)) 40))
         (memory-log memory)))
 
 (defun event-rule (event rulebase)
   "Return the rule of EVENT."
-  (svref (rulebase-rules rulebase) (ash event -32)))
+  (svref (rulebase-rules rulebase) (ash event -40)))
 
 (defun event-action (event rulebase)
   "Return the action of EVENT."
-  (nth (ldb (byte 8 24) event) (rule-actions (event-rule event rulebase))))
+  (nth (ldb (byte 16 24) event) (rule-actions (event-rule event rulebase))))
 
 (defun event-binding (event)
   "Return the binding of EVENT, a packed list."
@@ -121,7 +121,7 @@ TERMS."
         (arity (predicate-arity predicate))
         (variables (loop for place below (length (rule-variables *rule*)) collect place)))
     (flet ((put (memory packed binding)
-             (when (remember memory predicate packed)
+             (when (put-fact memory predicate packed)
                (log-event memory rule number binding))
              nil))
       (declare (inline put))

@@ -65,7 +65,7 @@ actions do.  Lists of surfaces are unordered."
 
 (defun same-action-p (action a b)
   (or (action-once action)
-      (and (action-predicate action)
+      (and (string= (action-verb action) "REMEMBER")
            (eq (null (member a (action-terms action))) (null (member b (action-terms action)))))))
 
 ;;; From clauses to matchers

@@ -76,7 +76,7 @@ whose number is the set."
   "True if MEMORY holds that PREDICATE is true of the faces of PACKED, in any order."
   (known-p memory (predicate-index predicate) (fact-bits (predicate-arity predicate) packed)))
 
-(declaim (inline note-use remember))
+(declaim (inline note-use put-fact))
 (defun note-use (memory index)
   "Note that the predicate INDEX has its first fact, and wake the rules that wait for it."
   (declare (type memory memory) (type (unsigned-byte 24) index))
@@ -85,8 +85,8 @@ whose number is the set."
   (dolist (rule (svref (memory-wakes memory) index))
     (setf (sbit (memory-awake memory) rule) 1)))
 
-(defun remember (memory predicate packed)
-  "Put into MEMORY that PREDICATE is true of the faces of PACKED.  True if it was not there."
+(defun put-fact (memory predicate packed)
+  "As REMEMBER; PACKED must hold as many faces as the lists of PREDICATE have."
   (declare (type memory memory) (type predicate predicate) (type packed packed))
   (let* ((index (predicate-index predicate))
          (bits (fact-bits (predicate-arity predicate) packed))
@@ -99,6 +99,15 @@ whose number is the set."
       (when (zerop count)
         (note-use memory index))
       t)))
+
+(defun remember (memory predicate packed)
+  "Put into MEMORY that PREDICATE is true of the faces of PACKED, a list of as many faces as those of
+PREDICATE have.  True if it was not there."
+  (declare (type packed packed))
+  (assert (= (pack-count packed) (predicate-arity predicate)) (packed)
+          "~a takes ~d different surfaces, not those of ~a" (predicate-text predicate)
+          (predicate-arity predicate) (pack-names packed))
+  (put-fact memory predicate packed))
 
 (defmacro do-facts ((fact memory index) &body body)
   "Run BODY with FACT each packed list of the predicate INDEX, in the order in which they were
@@ -118,6 +127,31 @@ remembered.  BODY must remember nothing."
     (do-facts (fact memory (predicate-index predicate))
       (push fact list))
     (nreverse list)))
+
+(deftype saved-facts ()
+  "What a memory holds, in one vector: packed lists, and above each the index of its predicate."
+  '(simple-array (unsigned-byte 62) (*)))
+
+(defun save-facts (memory)
+  "Return all that MEMORY holds in one vector, for RESTORE-FACTS."
+  (declare (type memory memory))
+  (let* ((used (memory-used memory))
+         (count (loop for i of-type fixnum below (memory-used-count memory)
+                      sum (aref (memory-counts memory) (aref used i)) of-type fixnum))
+         (saved (make-array count :element-type '(unsigned-byte 62)))
+         (place 0))
+    (declare (fixnum count place))
+    (dotimes (i (memory-used-count memory) saved)
+      (let ((index (aref used i)))
+        (declare (type (unsigned-byte 24) index))
+        (do-facts (fact memory index)
+          (setf (aref saved place) (logior fact (ash index 24)))
+          (incf place))))))
+
+(defun restore-facts (memory predicates saved)
+  "Put what SAVE-FACTS has SAVED into MEMORY, whose PREDICATES are those of its rule base."
+  (loop for fact across (the saved-facts saved)
+        do (put-fact memory (svref predicates (ash fact -24)) (ldb (byte 24 0) fact))))
 
 (defun assertions (memory predicates)
   "Return the contents of MEMORY as the paper has it: one list a predicate, its words followed by

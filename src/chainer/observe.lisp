@@ -10,9 +10,15 @@
 
 (defun prefix-bindings (rule count memory)
   "Return the bindings that meet the first COUNT clauses of RULE on MEMORY."
-  (loop repeat (find-bindings (compile-clauses (subseq (rule-clauses rule) 0 count) '()) memory)
-        for i from 0
-        collect (aref (memory-bindings memory) i)))
+  (let ((bindings (memory-bindings memory)) (found (memory-found memory)))
+    ;; An action may ask while a run goes through the bindings of its own rule.
+    (setf (memory-bindings memory) (copy-seq bindings))
+    (prog1 (loop repeat (find-bindings (compile-clauses (subseq (rule-clauses rule) 0 count) '())
+                                       memory)
+                 for i from 0
+                 collect (aref (memory-bindings memory) i))
+      (setf (memory-bindings memory) bindings
+            (memory-found memory) found))))
 
 (defun run-observed (rulebase memory observer &key (end (length (rulebase-rules rulebase))))
   "Run the first END rules of RULEBASE on MEMORY as RUN-RULES does, and call OBSERVER with

@@ -216,7 +216,7 @@ wrong in it.  This is where an action is attached: DEFINE-ACTION adds a method."
 (defmacro define-action (verb (action rulebase) &body body)
   "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, complains of what
 is wrong, and stores the ACTION-FUNCTION.  That must not keep the memory that it is called with,
-which serves other runs, too."
+which serves other runs, too; and it may be called again when a question about the run is asked."
   `(progn
      (setf *action-verbs* (adjoin-last ,(symbol-name verb) *action-verbs*))
      (defmethod compile-action ((verb (eql ,verb)) ,action ,rulebase)

@@ -205,11 +205,10 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
                           (next source)))))
 
 (defun read-form (source depth)
+  "Read the next form; there must be one."
   (declare (fixnum depth))
   (let ((character (skip-blanks source)))
-    (cond ((null character) (fail source "the file ends inside a form that begins in line ~d"
-                                  (source-record-start-line source)))
-          ((char= character #\() (read-list source depth))
+    (cond ((char= character #\() (read-list source depth))
           ((char= character #\') (read-quoted source depth))
           ((char= character #\") (read-string source))
           ((char= character #\)) (fail source "a closing parenthesis too many"))
@@ -243,8 +242,11 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
     (cdr head)))
 
 (defun read-quoted (source depth)
-  (let ((line (source-line source)))
+  (let ((line (source-line source))
+        (column (source-column source)))
     (next source)
+    (unless (skip-blanks source)
+      (fail-at source line column "nothing stands after this '"))
     (let ((form (list :quote (read-form source (deeper source depth)))))
       (when (source-lines source)
         (setf (gethash form (source-lines source)) line))

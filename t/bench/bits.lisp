@@ -16,7 +16,7 @@
 (defun note (journal rule action binding)
   (declare (type journal journal) (type (integer 0 14) rule) (type (integer 0 1) action)
            (type (unsigned-byte 24) binding))
-  (push (logior binding (ash action 24) (ash rule 32)) (journal-events journal)))
+  (push (logior binding (ash action 24) (ash rule 40)) (journal-events journal)))
 
 (defmacro binding (&rest faces)
   "FACES, forms, packed in this order."
