@@ -25,6 +25,7 @@
                (:file "failure")
                (:file "transcript")
                (:file "explain")
+               (:file "refusal")
                (:file "whynot")
                (:file "advice")
                (:file "describe")
@@ -79,6 +80,7 @@
                              (:file "names")
                              (:file "numbers")
                              (:file "reader")
+                             (:file "skip")
                              (:file "json")))
                (:module "chainer"
                 :serial t
@@ -87,6 +89,7 @@
                              (:file "memory")
                              (:file "rulebase")
                              (:file "watches")
+                             (:file "twins")
                              (:file "match")
                              (:file "chainer")
                              (:file "observe")
@@ -118,6 +121,7 @@
                (:file "engines")
                (:file "spoiled")
                (:file "explain")
+               (:file "edit")
                (:file "json")
                (:file "record")
                (:file "scripts")

@@ -1,4 +1,4 @@
-;;;; explain.lisp -- how a fact came to be known, and why a rule did not fire.
+;;;; explain.lisp -- how a fact came to be known.
 ;;;;
 ;;;; Each answer is an object; WRITE-ANSWER prints it, and HOW and WHY-NOT do both.  A log of a plan
 ;;;; holds the rule, the action and the binding of every fact, so nothing has to be recorded for
@@ -236,141 +236,6 @@ is not told again."
         (write-answer refusal stream))
       (format stream "It is an input, which this box does not give.~%")))
 
-;;; WHY-NOT, rules
-
-(defstruct (refusal (:include explanation))
-  "Why RULE did not fire, or not for what was asked about.  ALONE is the name of the grasp that was
-tried without rules.  FIRED holds the rule's bindings if it did fire; STOP is the STOP that ended the
-run before it, or before its action; else NUMBER counts its CLAUSE that failed, BINDINGS are those
-that met all clauses before, BLOCKS, for a negation, the derivations of the facts that contradict it
-under each, and ELSEWHERE is true if it fired for something else."
-  rule alone (fired '()) stop number clause (bindings '()) (blocks '()) elsewhere)
-
-(defun memory-before (plan index)
-  "Return the memory of PLAN as it was when the rule with INDEX was tried, and the STOP that ended
-the run before it, or NIL."
-  (let* ((knowledge (plan-knowledge plan))
-         (memory (prepare-memory (new-memory knowledge) (plan-box plan) knowledge
-                                 (plan-gamma plan))))
-    (values memory
-            (run-observed (plan-rulebase plan) memory (constantly nil) :end index))))
-
-(defun refuse-rule (rule plan)
-  "Return the REFUSAL of RULE in PLAN."
-  (multiple-value-bind (memory stop) (memory-before plan (rule-index rule))
-    (cond ((plan-alone plan) (make-refusal :rule rule :alone (plan-alone plan)))
-          (stop (make-refusal :rule rule :stop stop))
-          ((failing-clause rule memory plan (constantly t)))
-          (t (make-refusal :rule rule :fired (rule-bindings rule memory))))))
-
-(defun refuse-conclusion (rule predicate packed plan)
-  "Return the REFUSAL of RULE in PLAN as far as it might have said PREDICATE of the faces of PACKED."
-  (multiple-value-bind (memory stop) (memory-before plan (rule-index rule))
-    (let ((actions (remove predicate (rule-actions rule) :key #'action-predicate :test-not #'eq)))
-      (flet ((wanted-p (binding)
-               (some (lambda (action)
-                       (may-bind-p (action-terms action) binding (pack-mask packed)))
-                     actions)))
-        (if (or stop (plan-alone plan))
-            (refuse-rule rule plan)
-            (let ((refusal (failing-clause rule memory plan #'wanted-p))
-                  (bindings (rule-bindings rule memory)))
-              (cond (refusal
-                     (setf (refusal-elsewhere refusal) (and bindings t))
-                     refusal)
-                    (t (make-refusal :rule rule :fired bindings
-                                     :stop (and (plan-stop plan)
-                                                (eq rule (stop-rule (plan-stop plan)))
-                                                (plan-stop plan)))))))))))
-
-(defun may-bind-p (terms binding faces)
-  "True if those of TERMS that BINDING binds are among FACES, a set, and the others may be."
-  (loop for term in terms
-        always (or (>= term (pack-count binding))
-                   (logbitp (term-value term binding) faces))))
-
-(defun failing-clause (rule memory plan wanted)
-  "Return the REFUSAL of RULE on MEMORY with regard to the bindings that are WANTED, a predicate: the
-first clause that fails for all of them.  NIL if none does."
-  (loop for clause in (rule-clauses rule)
-        for number from 1
-        for bindings = (list 0) then next
-        for next = (remove-if-not wanted (prefix-bindings rule number memory))
-        when (null next)
-          return (make-refusal :rule rule :number number :clause clause :bindings bindings
-                               :blocks (and (clause-negated clause)
-                                            (blocking-facts clause bindings plan)))))
-
-(defun blocking-facts (clause bindings plan)
-  "Return the derivations of the facts that contradict CLAUSE, negated, under BINDINGS."
-  (remove-duplicates
-   (loop for binding in bindings
-         when (every (lambda (term) (or (not (term-variable-p term))
-                                        (< term (pack-count binding))))
-                     (clause-terms clause))
-           append (let ((packed (instantiate (clause-terms clause) binding)))
-                    (and (recall (plan-memory plan) (clause-predicate clause) packed)
-                         (list (derive plan (clause-predicate clause) packed)))))
-   :key (lambda (derivation) (pack-mask (derivation-packed derivation))) :from-end t))
-
-(defmethod write-answer ((answer refusal) stream)
-  (let ((rule (refusal-rule answer)))
-    (cond ((refusal-alone answer)
-           (format stream "RULE ~a did not run: ~a was tried alone.~%" (rule-name rule)
-                   (refusal-alone answer)))
-          ((refusal-fired answer) (write-fired answer stream))
-          ((refusal-stop answer)
-           (format stream "RULE ~a was not reached: RULE ~a ended the run, ~a.~%" (rule-name rule)
-                   (rule-name (stop-rule (refusal-stop answer)))
-                   (stop-text (refusal-stop answer))))
-          (t (write-failing-clause answer stream)))))
-
-(defun stop-text (stop)
-  (if (eq (stop-verdict stop) :cant)
-      (format nil "CANT ~{~a~^ ~}" (stop-words stop))
-      "KEEP BEST"))
-
-(defun write-fired (refusal stream)
-  (let ((rule (refusal-rule refusal)))
-    (format stream "RULE ~a did fire~:[~;~:*, with ~{~a~^; ~}~]~@[, and ended the run before, ~a~].~%"
-            (rule-name rule) (binding-texts rule (refusal-fired refusal))
-            (and (refusal-stop refusal) (stop-text (refusal-stop refusal))))))
-
-(defun binding-texts (rule bindings)
-  "Return BINDINGS of RULE in words, those without variables left out."
-  (remove "" (loop for binding in bindings collect (binding-text rule binding)) :test #'string=))
-
-(defun write-failing-clause (refusal stream)
-  (let* ((rule (refusal-rule refusal))
-         (clause (refusal-clause refusal)))
-    (format stream "RULE ~a ~:[did not fire~;did fire, but not for this~]: clause ~d, ~a, fails~
-                    ~:[~; for all bindings before it~].~%"
-            (rule-name rule) (refusal-elsewhere refusal)
-            (refusal-number refusal) (form-text (clause-form clause))
-            (> (refusal-number refusal) 1))
-    (write-tried-bindings rule (refusal-bindings refusal) stream)
-    (if (clause-negated clause)
-        (dolist (block (refusal-blocks refusal))
-          (format stream "  In its way stands~%")
-          (write-derivation block stream 2 '())
-          (terpri stream))
-        (format stream "  ~a~%" (missing-text clause (or (> (refusal-number refusal) 1)
-                                                         (refusal-elsewhere refusal)))))))
-
-(defun write-tried-bindings (rule bindings stream)
-  (let ((texts (binding-texts rule bindings)))
-    (when texts
-      (format stream "  Tried: ~{~a~^; ~}~:[~;; and ~d more~]~%" (subseq texts 0 (min 4 (length texts)))
-              (> (length texts) 4) (- (length texts) 4)))))
-
-(defun missing-text (clause bound)
-  "Return what is missing for CLAUSE; BOUND is true if clauses before it chose its surfaces."
-  (let ((words (predicate-text (clause-predicate clause)))
-        (these (and bound (clause-terms clause))))
-    (if (predicate-given (clause-predicate clause))
-        (format nil "~a is an input, and the box does not give it~:[~; for these~]." words these)
-        (format nil "No rule before said ~a~:[~; of these~]." words these))))
-
 ;;; In print
 
 (defmethod topic ((explanation derivation))
@@ -378,6 +243,3 @@ first clause that fails for all of them.  NIL if none does."
 
 (defmethod topic ((explanation unknown-fact))
   (fact-text (unknown-fact-predicate explanation) (unknown-fact-packed explanation)))
-
-(defmethod topic ((explanation refusal))
-  (rule-name (refusal-rule explanation)))

@@ -14,6 +14,10 @@
   (supergrip::plan `((size ,@size) (weight ,weight) (u ,u) (v 0.2d0) (constrained ,@constrained)
                      (force-needed ,force) (velocity-needed ,velocity))))
 
+(defmacro with-knowledge-restored (&body body)
+  `(let ((supergrip:*knowledge* supergrip:*knowledge*))
+     ,@body))
+
 ;;; HOW
 
 (test how-tells-the-tree-down-to-the-box
@@ -319,62 +323,7 @@
                                           (constantly (constantly nil)))))))
              (random-boxes 2000 14)))))
 
-;;; Editing
-
-(defmacro with-knowledge-restored (&body body)
-  `(let ((supergrip:*knowledge* supergrip:*knowledge*))
-     ,@body))
-
-(test continue-after-a-bad-edit-keeps-what-was
-  (let ((before supergrip:*knowledge*))
-    (with-knowledge-restored
-      (handler-bind ((supergrip:knowledge-error #'continue))
-        (supergrip:edit '(rule grip9 (if (parallel (s1))) (then (keep best)))))
-      (is (eq before supergrip:*knowledge*)))))
-
-(test an-edit-comes-into-force-at-once
-  (with-knowledge-restored
-    (let ((before (pencil-plan)))
-      (supergrip:edit '(rule grip9 (if (parallel (s1 s2)) (large (s1 s2)))
-                        (then (try pinch-3-parallel (s1 s2 ? ? ? ?)))))
-      (is (equal "PINCH-3-U-SHAPE" (supergrip:plan-grasp (pencil-plan))))
-      (is (= 15 (length (supergrip:knowledge-rules supergrip:*knowledge*))))
-      (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp before)))
-      (is (= 6 (length (supergrip:plan-candidates before))) "plans made before keep theirs")))
-  (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp (pencil-plan)))))
-
-(test a-new-rule-goes-before-the-last
-  (with-knowledge-restored
-    (supergrip:rule grip12 (if (parallel (s1 s2))) (then (try pinch-2-parallel (s1 s2 ? ? ? ?))))
-    (is (equal '("GRIP10" "GRIP12" "GRIP11")
-               (mapcar #'supergrip-chainer:rule-name
-                       (last (supergrip:knowledge-rules supergrip:*knowledge*) 3))))
-    (is (= 8 (length (supergrip:plan-candidates (pencil-plan)))))
-    (supergrip:edit '(rule early (if (slippery)) (then (cant do))) :before 'grip2)
-    (is (equal "EARLY" (supergrip-chainer:rule-name
-                        (second (supergrip:knowledge-rules supergrip:*knowledge*)))))
-    (supergrip:edit '(rule early (if (slippery)) (then (cant do it))) :before 'grip1)
-    (is (equal '("EARLY" "GRIP1" "GRIP2")
-               (mapcar #'supergrip-chainer:rule-name
-                       (subseq (supergrip:knowledge-rules supergrip:*knowledge*) 0 3)))
-        "a rule that is there moves")
-    (signals supergrip:no-rule-error
-      (supergrip:edit '(rule early (if (slippery)) (then (cant do))) :before 'grip99))))
-
-(test rules-and-grasps-are-forgotten
-  (with-knowledge-restored
-    (let ((before supergrip:*knowledge*))
-      (is (search "TRY names PINCH-3-CORNER, which is not in the database"
-                  (handler-case (supergrip:forget 'pinch-3-corner)
-                    (supergrip:knowledge-error (condition) (princ-to-string condition)))))
-      (is (eq before supergrip:*knowledge*) "rules try it"))
-    (handler-bind ((supergrip:knowledge-warning #'muffle-warning)) ; nothing tries the corner grasp
-      (mapc #'supergrip:forget '(grip4 "GRIP10")))
-    (supergrip:forget 'pinch-3-corner)
-    (is (= 13 (length (supergrip:knowledge-rules supergrip:*knowledge*))))
-    (is (= 6 (length (supergrip:knowledge-grasps supergrip:*knowledge*))))
-    (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp (pencil-plan))))
-    (signals supergrip:no-rule-error (supergrip:forget 'grip4))))
+;;; Other knowledge
 
 (test how-tells-why-a-rule-said-no-more
   (flet ((answer (fact &optional (plan (pencil-plan)))
@@ -435,55 +384,6 @@
   (is (equal "#<CANDIDATE PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1) Q=0.770>"
              (let ((*package* (find-package :supergrip)))
                (prin1-to-string (first (supergrip:plan-candidates (pencil-plan))))))))
-
-(test a-broken-edit-leaves-the-last-good-knowledge
-  (let ((before supergrip:*knowledge*))
-    (let ((report (handler-case
-                      (supergrip:edit '(rule grip9 (if (parallel (s1))) (then (frob))))
-                    (supergrip:knowledge-error (condition) (princ-to-string condition)))))
-      (is (equal '("rules.lisp: RULE GRIP9, clause 1: PARALLEL takes 2 surfaces, here it has 1"
-                   "rules.lisp: RULE GRIP9, action 1: FROB is no action; actions are REMEMBER, CANT, TRY, KEEP"
-                   "The knowledge in force stays as it was.")
-                 (remove-if (lambda (line) (search "warning" line))
-                            (lines-of report)))))
-    (is (eq before supergrip:*knowledge*))))
-
-(test a-grasp-is-edited-by-setq
-  (with-knowledge-restored
-    (supergrip-user::setq pinch-2-parallel
-                          '(used-surfaces (n1 n2 a2)
-                            conditions ((dist '(n1 n2)) < 1)
-                            offset (list 0 0 0 0 0 0) wrench (1 1 1 1 1 1) twist (1 1 1 1 1 1)))
-    (is (null (supergrip:possible-grasps (supergrip:try-grasp "PINCH-2-PARALLEL" (paper-box)))))
-    (is (= 7 (length (supergrip:knowledge-grasps supergrip:*knowledge*)))))
-  (let ((x 1))
-    (supergrip-user::setq x 2)
-    (is (= 2 x) "anything else is set as ever")))
-
-(test knowledge-is-read-again
-  (with-knowledge-restored
-    (uiop:with-temporary-file (:stream out :pathname rules :keep nil)
-      (write-string *good-rules* out)
-      :close-stream
-      (uiop:with-temporary-file (:stream out :pathname grasps :keep nil)
-        (write-string *good-grasps* out)
-        :close-stream
-        (supergrip:reload-knowledge :rules rules :grasps grasps)
-        (is (= 4 (length (supergrip:knowledge-rules supergrip:*knowledge*))))
-        (with-open-file (out rules :direction :output :if-exists :supersede)
-          (write-string "(RULE" out))
-        (signals supergrip:knowledge-error (supergrip:reload-knowledge))
-        (is (= 4 (length (supergrip:knowledge-rules supergrip:*knowledge*))))))))
-
-(test comparing-knowledge-tells-what-an-edit-changed
-  (with-knowledge-restored
-    (let ((old supergrip:*knowledge*)
-          (boxes (list (paper-box) (cons '(name "soap") (changed-box :u 0.05)))))
-      (supergrip:edit '(rule grip9 (if (parallel (s1 s2)) (large (s1 s2)))
-                        (then (try pinch-3-parallel (s1 s2 ? ? ? ?)))))
-      (is (equal '("12 x 2 x 2 cm: PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1) Q=0.770, was PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1) Q=0.860"
-                   "1 of 2 boxes differ: 0 in verdict, 1 in grasp, 0 in quality.")
-                 (printed (supergrip:compare-knowledge old supergrip:*knowledge* boxes)))))))
 
 ;;; The README's transcripts
 
