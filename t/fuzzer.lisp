@@ -191,6 +191,14 @@ WRITE-INPUTS returns it."
     (cond ((not (member status '(0 65))) (format nil "status ~d: ~a" status errors))
           ((> (count #\Newline errors) 1) (format nil "said: ~a" errors)))))
 
+(defun notation-told-p (input notation)
+  "True if the first octet of INPUT that is not blank tells that it is in NOTATION."
+  (with-open-file (in input :element-type '(unsigned-byte 8))
+    (let ((first (loop for octet = (read-byte in nil)
+                       while (member octet '(9 10 12 13 32))
+                       finally (return octet))))
+      (eq (and (member first '(91 123)) t) (eq notation :json)))))
+
 (defun fuzz-boxes (command notation count seed directory)
   "Let COMMAND, a list of strings, answer COUNT spoiled boxes in NOTATION, :LISP or :JSON, chosen by
 SEED.  Files are kept in DIRECTORY.  Return NIL, or a string that says what is wrong."
@@ -199,8 +207,9 @@ SEED.  Files are kept in DIRECTORY.  Return NIL, or a string that says what is w
          (input (merge-pathnames (format nil "fuzz-~(~a~).in" notation) directory))
          (output (merge-pathnames (format nil "fuzz-~(~a~).out" notation) directory))
          (ones (write-inputs input notation count)))
-    (or (run-program (append command (list "--format" "json" "--input"
-                                           (if (eq notation :json) "json" "sexp")))
+    (or (run-program (append command '("--format" "json")
+                             (unless (notation-told-p input notation)
+                               (list "--input" (if (eq notation :json) "json" "sexp"))))
                      input output)
         (records-between output ones))))
 
