@@ -126,6 +126,8 @@ is among its problems."
              (make-data-file :path path :name name :problems problems)))
       (handler-case
           (with-open-file (in path :external-format '(:utf-8 :replacement #\ufffd))
+            (when (eql (peek-char nil in nil) #\ufeff) ; a byte order mark
+              (read-char in))
             (multiple-value-bind (forms lines comments) (read-all (stream-source in :name name))
               (make-data-file :path path :name name :forms forms :lines lines
                               :comments comments)))

@@ -102,7 +102,7 @@
 (test rules-and-grasps-of-ones-own
   (with-text-file (rules "(RULE MINE (IF (CONSTRAINED (s1))) (THEN (CANT MY REASON)))")
     (is (equal "CANT MY REASON" (getf (first (answers *pencil* "--rules" rules)) :reason)))
-    (with-text-file (grasps (file-text "grasps.lisp"))
+    (with-text-file (grasps (format nil "~c~a" (code-char #xfeff) (file-text "grasps.lisp")))
       (is (equal "grasp" (getf (first (answers *pencil* "--grasps" grasps)) :status)))
       (is (equal "CANT MY REASON"
                  (getf (first (answers *pencil* "--grasps" grasps "--rules" rules)) :reason))))))

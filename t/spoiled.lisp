@@ -45,6 +45,8 @@
   '(
     (:RULES "(RULE END" "(RULE"
      "rules.lisp:14: RULE without a name: a rule is (RULE name (IF clause...) (THEN action...))")
+    (:RULES "(RULE END" "hello (RULE END"
+     "rules.lisp:14: HELLO is no rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
     (:RULES "(RULE END" "(RULES END"
      "rules.lisp:14: (RULES END (IF (OBJECT HAS PARALLEL SURFACES)) (THEN (KEEP BEST))) is no rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(WHEN (PARALLEL (s1 s2)))"

@@ -335,14 +335,15 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
     (canonical-name (nstring-upcase (subseq text 0 count)))))
 
 (defun read-all (source)
-  "Read all forms of SOURCE.  Returns their list, a table from each list in them to its line, and
-one from each outermost list to the lines of the comment just before it."
+  "Read all forms of SOURCE.  Returns their list, a table from each list in them, and each outermost
+name, to its line, and one from each outermost list to the lines of the comment just before it."
   (let ((lines (make-hash-table :test #'eq))
         (comments (make-hash-table :test #'eq)))
     (setf (source-lines source) lines
           (source-comments source) comments)
     (values (loop for form = (read-datum source)
                   until (eq form (end-of-data))
+                  when (namep form) do (setf (gethash form lines) (record-start-line source))
                   collect form)
             lines
             comments)))
