@@ -25,9 +25,9 @@ if KEEP is true."
 Signals a SYSTEM-FAILURE if the one can't be read or the other not written."
   (let* ((input (make-input descriptor (lambda () (flush-output (batch-output batch)))))
          (source (input-source input nil))
-         (notation (or (setf (input-notation input) (batch-notation batch))
-                       (setf (input-notation input) (notation-of source)))))
-    (unless (or (batch-format batch) (null (skip-to-json source)))
+         (notation (or (batch-notation batch) (notation-of source))))
+    (setf (input-notation input) notation)
+    (unless (or (batch-format batch) (null (skip-to-json source))) ; nothing at all is in no notation
       (setf (batch-format batch) notation))
     (let ((*notation* notation))
       (if (eq notation :json)

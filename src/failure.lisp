@@ -131,8 +131,6 @@
             always (> (aref registers register) 0d0))
     (arithmetic-error () nil)))
 
-(defconstant +most-friction+ 1d6 "No friction above this is asked for.")
-
 (defun closing-friction (grasp registers)
   "Return the least friction above that in REGISTERS that closes GRASP, or NIL."
   (let ((low (aref registers +u+))
@@ -160,13 +158,17 @@
                          (figure needed) (figure u))
                  "open: the contacts don't close on this shape with any friction"))))))
 
+(defun bounded-ratio (a b)
+  "Return A / B, above 0, or the greatest double where that overflows."
+  (handler-case (/ a b)
+    (arithmetic-error () most-positive-double-float)))
+
 (defun worst-load (attempt)
   "Return the axis on which the load exceeds what the grasp bears by most, and the ratio."
   (let ((worst nil) (most 0))
     (dotimes (axis 6 (values worst most))
-      (let ((ratio (handler-case (/ (aref (attempt-load attempt) axis)
-                                    (aref (attempt-wrench attempt) axis))
-                     (arithmetic-error () most-positive-double-float))))
+      (let ((ratio (bounded-ratio (aref (attempt-load attempt) axis)
+                                  (aref (attempt-wrench attempt) axis))))
         (when (> ratio most)
           (setf worst axis most ratio))))))
 
@@ -201,9 +203,7 @@ does, or if it is no less than LEAST, unless that is NIL."
   (let* ((u (aref registers +u+))
          (needed (and (or (null least)
                           ;; One look here saves most of the searches.
-                          (let ((limit (- 1 (- least +tie+))))
-                            (and (< u (* limit +most-friction+))
-                                 (closed-at-p grasp registers (/ u limit)))))
+                          (closed-at-p grasp registers (bounded-ratio u (- 1 (- least +tie+)))))
                       (progn (setf (aref registers +u+) u)
                              (closing-friction grasp registers)))))
     (if needed (- 1 (/ u needed)) 1)))

@@ -270,6 +270,34 @@
   (dolist (gamma '(-0.1 2 "half" nil))
     (signals supergrip:gamma-error (supergrip::plan (paper-box) :gamma gamma))))
 
+(defun plain-nearest (candidates plan)
+  "Return the nearest miss among CANDIDATES of PLAN, from its definition: each is looked at in full."
+  (let ((step (find-if (lambda (step) (find step candidates :key #'supergrip:candidate-outcome))
+                       (reverse supergrip::+steps+)))
+        (best nil) (least nil))
+    (supergrip::with-attempt (attempt plan)
+      (dolist (candidate candidates best)
+        (when (eq step (supergrip:candidate-outcome candidate))
+          (let ((shortfall (supergrip::shortfall candidate attempt nil)))
+            (when (or (null least) (< shortfall (- least supergrip::+tie+)))
+              (setf best candidate least shortfall))))))))
+
+(test the-nearest-miss-is-the-nearest
+  (let ((open 0))
+    (is (null (first-fault
+               (lambda (box)
+                 ;; Every grasp in all matchings: some that no friction closes, some that it would.
+                 (let* ((plans (loop for name in '("PINCH-2-ADJACENT" "PINCH-3-ADJACENT"
+                                                   "PINCH-3-CORNER" "PINCH-3-C-SHAPE")
+                                     collect (supergrip:try-grasp name box)))
+                        (candidates (reduce #'append (mapcar #'supergrip:plan-rejected plans))))
+                   (incf open (count :open candidates :key #'supergrip:candidate-outcome))
+                   (and candidates
+                        (not (eq (supergrip::nearest-of candidates (first plans))
+                                 (plain-nearest candidates (first plans)))))))
+               (random-boxes 5000 31))))
+    (is (> open 500) "only ~d open candidates" open)))
+
 (defun extreme-box (state)
   "Return the description of a box whose numbers are of any size that may be."
   (flet ((extreme (most) (* (expt 10d0 (- (random (* 2 most) state) most)) (+ 1 (random 9 state)))))

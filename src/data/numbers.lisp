@@ -32,9 +32,6 @@
   "Return the double nearest to MANTISSA x 10^EXPONENT, or NIL and :RANGE."
   (declare (type (integer 0) mantissa) (fixnum exponent))
   (cond ((zerop mantissa) 0d0)
-        ;; About the decimal logarithm.
-        ((> (abs (+ exponent (* 0.30103 (integer-length mantissa)))) 310)
-         (values nil :range))
         ((and (< mantissa (expt 2 53)) (<= -22 exponent 22))
          ;; Both factors are exact doubles, so one operation rounds once.
          (let ((power (svref (load-time-value
@@ -45,6 +42,9 @@
            (if (minusp exponent)
                (/ (coerce mantissa 'double-float) power)
                (* (coerce mantissa 'double-float) power))))
+        ;; About the decimal logarithm.
+        ((> (abs (+ exponent (* 0.30103 (integer-length mantissa)))) 310)
+         (values nil :range))
         ((minusp exponent) (bounded-quotient mantissa (expt 10 (- exponent))))
         (t (bounded-quotient (* mantissa (expt 10 exponent)) 1))))
 
