@@ -13,8 +13,10 @@
 ;;;; or Reconstructed (not in the paper; the reason follows).
 
 ;;; Reconstructed: the paper names FINGER-LENGTH, FINGER-DIST, DIST-PINCH and WIDTH-HAND and
-;;; prints no value.  The six qualities of its session, each to +-0.0005, bind FINGER-LENGTH,
-;;; FINGER-DIST, FINGER-SPREAD, REACH-U and REACH-C; the others are a plausible hand's.
+;;; prints no value.  The six qualities of its session, each to +-0.0005, bind FINGER-SPREAD,
+;;; REACH-U and REACH-C, and FINGER-LENGTH and FINGER-DIST jointly: 3.0 with 4.705 (then DIST-PINCH
+;;; at most 10.705), 4.0 with 9.262 or 5.0 with 11.9075 print the same session.  The others are a
+;;; plausible hand's.
 (SETQ GRIPPER
   '(FINGER-LENGTH 3.2     ; cm, of each of a finger's two links
     FINGER-DIST   6.05    ; cm, between the bases of opposed fingers
@@ -31,10 +33,9 @@
 
 ;;;; ---------------------------------------------------------------- two parallel faces
 
-;;; Repaired: (+ 2 u), (+ 2 v), (+ u (DIST ...)) are products; the last of five WRENCH entries
-;;; stands for the torques about O and about A; D1 D2 are O1 O2; a parenthesis misplaced
-;;; in (- DIST '(N1 N2)) FINGER-DIST); the result of OFFSET is written with LIST; the listing is
-;;; a property list.  CONTACTS and PALM are ours.
+;;; Repaired: (+ 2 u), (+ 2 v), (+ u (DIST ...)) are products; D1 D2 are O1 O2; a parenthesis
+;;; misplaced in (- DIST '(N1 N2)) FINGER-DIST); the result of OFFSET is written with LIST; the
+;;; listing is a property list.  CONTACTS and PALM are ours.
 (SETQ PINCH-2-PARALLEL
   '(USED-SURFACES (N1 N2 A2)
     CONDITIONS (((DIST '(N1 N2)) < DIST-PINCH) AND

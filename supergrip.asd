@@ -117,6 +117,7 @@
                (:file "statics")
                (:file "rules")
                (:file "properties")
+               (:file "plan")
                (:file "errors")
                (:file "engines")
                (:file "spoiled")

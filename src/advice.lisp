@@ -44,16 +44,15 @@ of CHANGEs, the smallest first."
   "Return the LIMIT of u_w of CANDIDATE, or NIL if no force is needed."
   (when (candidate-force-axis candidate)
     (with-replay (attempt candidate plan)
-      (shift-force (%box-force (plan-box plan)) (attempt-offset attempt) (attempt-need attempt))
-      (limit-at (%candidate-force-limit candidate) (attempt-wrench attempt) (attempt-need attempt)
-                (candidate-force-radius candidate)))))
+      (limit-at (%candidate-force-limit candidate) (attempt-spare attempt)
+                (attempt-force-needs attempt) (candidate-force-radius candidate)))))
 
 (defun velocity-limit (candidate plan)
   "Return the LIMIT of u_t of CANDIDATE, or NIL if no velocity is needed."
   (when (candidate-velocity-axis candidate)
     (with-replay (attempt candidate plan)
       (limit-at (%candidate-velocity-limit candidate) (attempt-twist attempt)
-                (attempt-need attempt) (candidate-velocity-radius candidate)))))
+                (attempt-velocity-needs attempt) (candidate-velocity-radius candidate)))))
 
 ;;; What would change the choice.  Each value of the task, the friction and the weight alone is moved
 ;;; away from what it is, until the plan chooses otherwise; then the place is found by halving.

@@ -163,20 +163,29 @@
   (handler-case (/ a b)
     (arithmetic-error () most-positive-double-float)))
 
-(defun worst-load (attempt)
-  "Return the axis on which the load exceeds what the grasp bears by most, and the ratio."
-  (let ((worst nil) (most 0))
-    (dotimes (axis 6 (values worst most))
-      (let ((ratio (bounded-ratio (aref (attempt-load attempt) axis)
-                                  (aref (attempt-wrench attempt) axis))))
-        (when (> ratio most)
-          (setf worst axis most ratio))))))
+(defun load-shares (attempt)
+  "Return the shares, six, that the load takes of what the grasp bears alone on each axis."
+  (map 'list #'bounded-ratio (attempt-load attempt) (attempt-wrench attempt)))
+
+(defun total-share (shares)
+  "Return the sum of SHARES, at most the greatest double."
+  (handler-case (reduce #'+ shares)
+    (arithmetic-error () most-positive-double-float)))
 
 (defun describe-lifting-failure (attempt)
-  (let ((axis (worst-load attempt)))
-    (format nil "it can't hold the weight: the load ~a is ~a, the grasp bears ~a" (axis-name axis)
-            (figure (aref (attempt-load attempt) axis))
-            (figure (aref (attempt-wrench attempt) axis)))))
+  "Return in words that the load is too much: on one axis, or on several together."
+  (let* ((shares (load-shares attempt))
+         (worst (reduce #'max shares))
+         (axis (position worst shares)))
+    (if (> worst 1)
+        (format nil "it can't hold the weight: the load ~a is ~a, the grasp bears ~a"
+                (axis-name axis) (figure (aref (attempt-load attempt) axis))
+                (figure (aref (attempt-wrench attempt) axis)))
+        (format nil "it can't hold the weight: the load takes ~{~a of what the grasp bears ~a~^, ~
+                     ~}, together ~a; the axes share the same friction, so 1 is the most"
+                (loop for share in shares for axis from 0
+                      when (plusp share) collect (figure share) and collect (axis-name axis))
+                (figure (total-share shares))))))
 
 (defun candidate-failure (candidate plan)
   "Return why CANDIDATE of PLAN is not possible: the step (see CANDIDATE-OUTCOME) and a sentence
@@ -223,7 +232,7 @@ be said, or if it is no less than LEAST.  ATTEMPT, at its box, is used to replay
              1)))
       (:open (friction-shortfall (%candidate-grasp candidate)
                                  (copy-seq (attempt-registers attempt)) least))
-      (:lifting (- 1 (/ (nth-value 1 (worst-load attempt)))))
+      (:lifting (- 1 (/ (total-share (load-shares attempt)))))
       (t 1))))
 
 (defun nearest-of (candidates plan)

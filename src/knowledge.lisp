@@ -27,13 +27,13 @@ prevent it."
   (coerce (rulebase-rules (knowledge-rulebase knowledge)) 'list))
 
 (defun knowledge-grasps (knowledge)
-  "Return the grasps of KNOWLEDGE, a list, in the order of the file."
-  (graspbase-grasps (knowledge-graspbase knowledge)))
+  "Return the grasps of KNOWLEDGE, a new list, in the order of the file."
+  (copy-list (graspbase-grasps (knowledge-graspbase knowledge))))
 
 (defun knowledge-gripper (knowledge)
-  "Return the dimensions of the gripper of KNOWLEDGE, an alist from name to double, in cm
+  "Return the dimensions of the gripper of KNOWLEDGE, a new alist from name to double, in cm
 (SLIPPERY-U: a coefficient)."
-  (graspbase-gripper (knowledge-graspbase knowledge)))
+  (copy-alist (graspbase-gripper (knowledge-graspbase knowledge))))
 
 (defstruct data-file
   "A rule or grasp file that was read: its PATH, if it is one, its NAME in reports, its FORMS, LINES,

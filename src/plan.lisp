@@ -119,17 +119,22 @@ Rules that end without KEEP or CANT keep the best."
   (if (plan-best plan) :grasp :cant))
 
 (defun plan-candidates (plan)
-  "Return the candidates of PLAN, in the order in which they were tried."
-  (remove-if-not #'candidate-p (plan-log plan)))
+  "Return the candidates of PLAN, a new list, in the order in which they were tried."
+  (loop for event in (plan-log plan) when (candidate-p event) collect event))
+
+(defun possible-p (candidate)
+  (eq (%candidate-outcome candidate) :possible))
 
 (defun plan-possible (plan)
   "Return the possible grasps of PLAN, candidates, the best first; equals as they were tried."
-  (stable-sort (remove :possible (plan-candidates plan) :key #'%candidate-outcome :test-not #'eq)
+  ;; STABLE-SORT destroys its list: it gets one that nobody else holds.
+  (stable-sort (loop for candidate in (plan-candidates plan)
+                     when (possible-p candidate) collect candidate)
                #'> :key #'%candidate-quality))
 
 (defun plan-rejected (plan)
   "Return the candidates of PLAN that failed, in the order in which they were tried."
-  (remove :possible (plan-candidates plan) :key #'%candidate-outcome))
+  (remove-if #'possible-p (plan-candidates plan)))
 
 (defun plan-assertions (plan)
   "Return the assertions at the end of PLAN: a list a predicate, its words followed by its lists of
@@ -263,10 +268,7 @@ positions in cm, the normals point inward."
 six numbers, forces in finger forces, torques in finger force x cm.  NIL where it failed before."
   (and (member (candidate-outcome candidate) '(:possible :lifting))
        (with-replay (attempt candidate plan)
-         ;; JUDGE takes the load off in place.
-         (if (eq (candidate-outcome candidate) :possible)
-             (map 'list #'+ (attempt-wrench attempt) (attempt-load attempt))
-             (coerce (attempt-wrench attempt) 'list)))))
+         (coerce (attempt-wrench attempt) 'list))))
 
 (defun candidate-twist (candidate plan)
   "Return the mobility of CANDIDATE of PLAN along X Y Z and about X Y Z, six numbers.

@@ -15,8 +15,9 @@ HAVE  six doubles on the same axes: what the grasp exerts, gravity's load taken 
 The radius is the least HAVE/NEED over the axes with NEED > 0; the second value is that axis, 0 to
 5, or -1 if no axis is needed.
 
-Source: the paper, Description, u_t and u_w.  An upper bound of the true radius: see README, The
-index."
+Source: the paper, Description, u_t and u_w.  Of two ellipsoids with common axes this is the radius
+itself.  What the contacts can really do is no ellipsoid: with the needs that an offset makes grow,
+or a load, the radius is neither an upper nor a lower bound of their strength."
   (declare (type six need have))
   (let ((radius 0d0) (limit -1))
     (declare (double-float radius) (type (integer -1 5) limit))

@@ -31,7 +31,8 @@
 (defstruct (attempt (:constructor %make-attempt (registers tried)))
   "All that trying grasps on one box needs and leaves: the registers, what was tried of each grasp
 (a set of matchings), and the BEST candidate.  The arrays are the current candidate's, in the box
-frame."
+frame: WRENCH and TWIST what the grasp can do, LOAD what gravity asks, SPARE what it leaves of
+WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   (box nil :type (or null box)) (gamma 0.5d0 :type double-float)
   (registers nil :type registers)
   (tried nil :type (simple-array (unsigned-byte 24) (*)))
@@ -39,7 +40,8 @@ frame."
   (lengths (make-three) :type three) (centre (make-three) :type three)
   (offset (make-three) :type three)
   (wrench (make-six) :type six) (twist (make-six) :type six)
-  (load (make-six) :type six) (need (make-six) :type six))
+  (load (make-six) :type six) (spare (make-six) :type six)
+  (force-needs (make-six) :type six) (velocity-needs (make-six) :type six))
 
 (defmethod print-object ((attempt attempt) stream)
   (print-unreadable-object (attempt stream :type t)
@@ -113,7 +115,7 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
                    (inside-p (+ (aref centre axis) (aref registers register))
                              (aref lengths axis))))))
 
-(defun exert (attempt grasp matching)
+(defun compute-capacities (attempt grasp matching)
   "Put wrench and twist, rotated to X Y Z, into the attempt.  True if the grasp is closed."
   (declare (type attempt attempt) (type matching matching))
   (let ((registers (attempt-registers attempt)))
@@ -140,27 +142,34 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
     (dotimes (i 3)
       (setf (aref offset i) (abs (aref offset i))))))
 
-(defun lift (attempt)
-  "Put gravity's load into the attempt.  True if the wrench bears it on all six axes."
-  (declare (type attempt attempt))
-  (put-load (%box-weight (attempt-box attempt)) (attempt-offset attempt) (attempt-load attempt))
-  (dotimes (axis 6 t)
-    (unless (<= (aref (attempt-load attempt) axis) (aref (attempt-wrench attempt) axis))
-      (return nil))))
+(defun bears-load-p (attempt)
+  "Put gravity's load into the attempt.  True if the wrench bears it.
+Each axis may be loaded by a share of what the grasp bears there alone; the shares may not exceed 1
+together, since the axes use the same friction.  Sound: the six capacities, both ways, span a
+cross-polytope of wrenches that the contacts can exert."
+  (let ((load (attempt-load attempt))
+        (wrench (attempt-wrench attempt))
+        (shares 0d0))
+    (declare (double-float shares))
+    (put-load (%box-weight (attempt-box attempt)) (attempt-offset attempt) load)
+    (dotimes (axis 6 (<= shares 1d0))
+      (incf shares (/ (aref load axis) (aref wrench axis))))))
 
-(defun judge (attempt candidate)
+(defun rate (attempt candidate)
   "Compute the radii and the quality of CANDIDATE."
   (declare (type attempt attempt) (type candidate candidate))
   (let ((box (attempt-box attempt))
-        (wrench (attempt-wrench attempt))
-        (need (attempt-need attempt)))
+        (offset (attempt-offset attempt))
+        (spare (attempt-spare attempt)))
     (dotimes (axis 6)
-      (decf (aref wrench axis) (aref (attempt-load attempt) axis)))
-    (shift-force (%box-force box) (attempt-offset attempt) need)
-    (multiple-value-bind (force-radius force-limit) (embedded-radius need wrench)
-      (shift-velocity (%box-velocity box) (attempt-offset attempt) need)
+      (setf (aref spare axis)
+            (- (aref (attempt-wrench attempt) axis) (aref (attempt-load attempt) axis))))
+    (shift-force (%box-force box) offset (attempt-force-needs attempt))
+    (shift-velocity (%box-velocity box) offset (attempt-velocity-needs attempt))
+    (multiple-value-bind (force-radius force-limit)
+        (embedded-radius (attempt-force-needs attempt) spare)
       (multiple-value-bind (velocity-radius velocity-limit)
-          (embedded-radius need (attempt-twist attempt))
+          (embedded-radius (attempt-velocity-needs attempt) (attempt-twist attempt))
         (setf (%candidate-force-radius candidate) force-radius
               (%candidate-force-limit candidate) force-limit
               (%candidate-velocity-radius candidate) velocity-radius
@@ -185,10 +194,10 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
                                           (attempt-registers attempt))))
                  (:offset (find-centre attempt grasp))
                  (:fingers (fingers-on-faces-p attempt grasp))
-                 (:open (exert attempt grasp matching))
+                 (:open (compute-capacities attempt grasp matching))
                  (:lifting (progn (turn-centre attempt matching candidate)
-                                  (lift attempt)))
-                 (:open (judge attempt candidate)))
+                                  (bears-load-p attempt)))
+                 (:open (rate attempt candidate)))
         ;; A root, quotient or overflow without a value fails the step that it stands in.
         (arithmetic-error () nil)))))
 

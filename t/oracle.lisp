@@ -531,7 +531,8 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
                (u-w (radius (mapcar #'- wrench load) (force-needs box offset)))
                (u-t (radius twist (velocity-needs box offset))))
           (note :wrench wrench :twist twist)
-          (when (some #'> load wrench)
+          ;; The axes share the same friction, so what they bear is shared as well.
+          (when (> (reduce #'+ (mapcar #'/ load wrench)) 1)
             (finish :lifting))
           (note :q (quality u-w u-t gamma) :u-w u-w :u-t u-t)
           (finish :possible))))))

@@ -128,3 +128,33 @@ TWIST (0.8 0.5 1 0.2 1 1)))"))
                (mapcar (lambda (entry) (/ (round (second entry) 0.001d0) 1000.0))
                        (possible "PINCH-2-PARALLEL")))
         "possible, so the rule that tries it must not fire")))
+
+(defun grasps-with (&rest dimensions)
+  "Return the forms of the shipped grasp file with DIMENSIONS, a plist by name, of another gripper."
+  (loop for form in (supergrip-data:read-all
+                     (supergrip-data:string-source (file-text "grasps.lisp")))
+        collect (if (supergrip::gripper-form-p form)
+                    (list (first form) (second form)
+                          (list :quote
+                                (loop for (name number) on (second (third form)) by #'cddr
+                                      collect name
+                                      collect (getf dimensions
+                                                    (intern (symbol-name name) :keyword) number))))
+                    form)))
+
+(test other-hands-print-the-same-session
+  ;; RECONSTRUCTION, section 5: the session binds FINGER-LENGTH and FINGER-DIST only jointly.
+  (flet ((session (&rest dimensions)
+           (transcript
+            (supergrip::plan (paper-box)
+                             :knowledge (supergrip::build-knowledge
+                                         (supergrip::read-data-file
+                                          (supergrip::shipped-file "rules.lisp"))
+                                         (supergrip::make-data-file
+                                          :name "grasps.lisp"
+                                          :forms (apply #'grasps-with dimensions)))))))
+    (let ((printed (file-text "t/pencil-session.txt")))
+      (is (equal printed (session :finger-length 3 :finger-dist 4.705d0 :dist-pinch 10.5d0)))
+      (is (equal printed (session :finger-length 4 :finger-dist 9.262d0)))
+      (is (equal printed (session :finger-length 5 :finger-dist 11.9075d0)))
+      (is (not (equal printed (session :finger-length 4)))))))

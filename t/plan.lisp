@@ -1,0 +1,94 @@
+;;;; plan.lisp -- a plan is a value: asking it changes nothing; a grasp that passes holds its box.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defparameter *held-readers*
+  '(supergrip:plan-log supergrip:knowledge-warnings)
+  "Readers whose answer is what the plan or the knowledge itself holds.")
+
+(defun readers-of (prefix)
+  "Return the exported functions whose names begin with PREFIX, sorted."
+  (let ((readers '()))
+    (do-external-symbols (symbol :supergrip (sort readers #'string<))
+      (when (and (fboundp symbol) (not (macro-function symbol))
+                 (eql 0 (search prefix (symbol-name symbol))))
+        (push symbol readers)))))
+
+(defun ask (reader object plan)
+  "Return the answer of READER about OBJECT, of PLAN if it wants that as well."
+  (if (member reader '(supergrip:candidate-contacts supergrip:candidate-wrench
+                       supergrip:candidate-twist supergrip:candidate-failure))
+      (funcall reader object plan)
+      (funcall reader object)))
+
+(defun answers (plan)
+  "Return a list of (READER . TEXT) for every exported reader of PLAN, its box, its knowledge and its
+candidates."
+  (flet ((texts (prefix object)
+           (loop for reader in (readers-of prefix)
+                 collect (cons reader (prin1-to-string (ask reader object plan))))))
+    (append (texts "PLAN-" plan)
+            (texts "BOX-" (supergrip:plan-box plan))
+            (texts "KNOWLEDGE-" (supergrip:plan-knowledge plan))
+            (list (cons 'supergrip:possible-grasps
+                        (prin1-to-string (supergrip:possible-grasps plan))))
+            (loop for candidate in (supergrip:plan-candidates plan)
+                  append (texts "CANDIDATE-" candidate)))))
+
+(defun spoil (plan)
+  "Destroy every list that a reader of PLAN returns, as a caller may who sorts it."
+  (flet ((spoil-answers (prefix object)
+           (dolist (reader (readers-of prefix))
+             (unless (member reader *held-readers*)
+               (let ((answer (ask reader object plan)))
+                 (when (consp answer)
+                   (setf (cdr answer) nil (car answer) nil)))))))
+    (let ((candidates (supergrip:plan-candidates plan)))
+      (spoil-answers "PLAN-" plan)
+      (spoil-answers "BOX-" (supergrip:plan-box plan))
+      (spoil-answers "KNOWLEDGE-" (supergrip:plan-knowledge plan))
+      (fill (supergrip:possible-grasps plan) nil)
+      (dolist (candidate candidates)
+        (spoil-answers "CANDIDATE-" candidate)))))
+
+(test asking-a-plan-changes-nothing
+  (let ((supergrip:*knowledge* (supergrip:load-knowledge)))
+    (flet ((check (plan)
+             (let ((first (answers plan)))
+               (is (equal first (answers plan)))
+               (spoil plan)
+               (is (equal first (answers plan))))))
+      (check (supergrip::plan (paper-box)))
+      (check (supergrip:try-grasp "PINCH-3-PARALLEL" (paper-box)))
+      (for-random-boxes (box 100 271828)
+        (check (supergrip::plan box))))))
+
+;;; Lifting
+
+(test the-axes-share-what-holds-the-weight
+  (let* ((plan (supergrip::plan '((size 30 3 3) (weight 0.75) (u 0.5) (v 0.1) (constrained z2 x1)
+                                  (force-needed (1 0 0 0 0 0)) (velocity-needed (0 0 0 0 0 0)))))
+         (heavy (find :lifting (supergrip:plan-candidates plan)
+                      :key #'supergrip:candidate-outcome)))
+    (is (not (null heavy)))
+    (when heavy
+      (let* ((wrench (supergrip:candidate-wrench heavy plan))
+             (offset (supergrip:candidate-offset heavy))
+             (load (list 0 0 0.75 (* 0.75 (abs (second offset))) (* 0.75 (abs (first offset))) 0)))
+        (is (every #'<= load wrench) "~a ~a" load wrench)
+        (is (> (reduce #'+ (mapcar #'/ load wrench)) 1))
+        (is (search "together" (nth-value 1 (supergrip:candidate-failure heavy plan))))))))
+
+(test what-is-possible-bears-its-load
+  (for-random-boxes (box 1000 161803)
+    (let ((plan (supergrip::plan box)))
+      (dolist (candidate (supergrip:plan-possible plan))
+        (destructuring-bind (x y z) (supergrip:candidate-offset candidate)
+          (declare (ignore z))
+          (let* ((weight (first (box-part box 'weight)))
+                 (load (list 0 0 weight (* weight (abs y)) (* weight (abs x)) 0)))
+            (unless (<= (reduce #'+ (mapcar #'/ load (supergrip:candidate-wrench candidate plan)))
+                        (+ 1 1d-12))
+              (fail "~a of ~a drops the box" candidate box)))))))
+  (pass))
