@@ -444,7 +444,7 @@
                                      (readme-example 2)))))
     (let ((reports (mapcar #'princ-to-string
                            (nth-value 1 (text-knowledge (file-text "rules.lisp") grasps)))))
-      (is (equal '("grasps.lisp:345: warning: GRASP LATERAL: no rule tries it") reports))
+      (is (equal '("grasps.lisp:346: warning: GRASP LATERAL: no rule tries it") reports))
       (is (search (first reports) (substitute #\Space #\Newline (file-text "README.md")))
           "the README says the same"))
     (multiple-value-bind (knowledge problems) (text-knowledge rules grasps)
