@@ -75,6 +75,7 @@
   :components ((:module "data"
                 :serial t
                 :components ((:file "package")
+                             (:file "plain")
                              (:file "conditions")
                              (:file "suggest")
                              (:file "names")

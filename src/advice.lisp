@@ -23,17 +23,23 @@ of CHANGEs, the smallest first."
 (defparameter +approaches+ #("below" "above" "the side Y2" "the side Y1" "the side X2" "the side X1")
   "Where a palm over each face comes from.")
 
+(defun fingers-on (grasp face-name)
+  "Return what stands on each face that GRASP touches, and the face as FACE-NAME, a function of its
+slot, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
+  (loop with slots = (mapcar #'first (grasp-contacts grasp))
+        for slot in (remove-duplicates slots :from-end t)
+        for count = (count slot slots)
+        collect (if (= count 1) "a finger" (format nil "~r fingers" count))
+        collect (funcall face-name slot)))
+
 (defun grasp-sentence (candidate)
   "Return how CANDIDATE holds the box, in a sentence that a person would say."
   (let* ((grasp (%candidate-grasp candidate))
          (faces (matching-faces (%candidate-matching candidate)))
-         (slots (mapcar #'first (grasp-contacts grasp)))
          (palm (svref faces (grasp-palm grasp))))
     (format nil "~a: ~{~a on ~a~^, ~}; the palm over ~a, coming from ~a"
             (grasp-name grasp)
-            (loop for slot in (remove-duplicates slots :from-end t)
-                  collect (aref #("" "a finger" "two fingers" "three fingers") (count slot slots))
-                  collect (surface-name (svref faces slot)))
+            (fingers-on grasp (lambda (slot) (surface-name (svref faces slot))))
             (surface-name palm) (svref +approaches+ palm))))
 
 (defun limit-at (axis has needs radius)

@@ -63,47 +63,77 @@
 (defun describe-rule (name &key (knowledge *knowledge*) (stream *standard-output*))
   "Write the rule NAME to STREAM: its form, in words, where it is from, who derives what it tests, and
 who tests what it derives.  Returns the rule."
-  (let ((rule (find-named (string name) knowledge :rule)))
-    (write-rule-form rule stream)
-    (write-comment (rule-comment rule) stream)
-    (format stream "In words: if ~{~a~^, and ~}, then ~{~a~^; then ~}.~%"
-            (mapcar #'antecedent-text (rule-clauses rule)) (mapcar #'action-text (rule-actions rule)))
-    (dolist (predicate (remove-duplicates (mapcar #'clause-predicate (rule-clauses rule))
-                                          :from-end t))
-      (format stream "~a comes from ~{~a~^, ~}.~%" (predicate-text predicate)
-              (or (sources predicate knowledge) '("nobody"))))
-    (dolist (predicate (remove nil (mapcar #'action-predicate (rule-actions rule))))
-      (format stream "~a is tested by ~{~a~^, ~}.~%" (predicate-text predicate)
-              (or (testers predicate knowledge) '("no rule"))))
+  (let ((rule (find-named name knowledge :rule)))
+    (plainly
+      (write-rule-form rule stream)
+      (write-comment (rule-comment rule) stream)
+      (format stream "In words: if ~{~a~^, and ~}, then ~{~a~^; then ~}.~%"
+              (mapcar #'antecedent-text (rule-clauses rule))
+              (mapcar #'action-text (rule-actions rule)))
+      (dolist (predicate (remove-duplicates (mapcar #'clause-predicate (rule-clauses rule))
+                                            :from-end t))
+        (format stream "~a comes from ~a.~%" (predicate-text predicate)
+                (listed (or (sources predicate knowledge) '("nobody")))))
+      (dolist (predicate (remove nil (mapcar #'action-predicate (rule-actions rule))))
+        (format stream "~a is tested by ~a.~%" (predicate-text predicate)
+                (listed (or (testers predicate knowledge) '("no rule"))))))
     rule))
 
 (defun write-rule-form (rule stream)
   (destructuring-bind (rule-word name (if-word . clauses) (then-word . actions)) (rule-form rule)
     (declare (ignore rule-word if-word then-word))
     (format stream "(RULE ~a~%  (IF ~{~a~^~%      ~})~%  (THEN ~{~a~^~%        ~}))~%" name
-            (mapcar #'form-text clauses) (mapcar #'form-text actions))))
+            (mapcar #'full-text clauses) (mapcar #'full-text actions))))
+
+(defun full-text (form) (form-text form nil))
 
 (defun describe-grasp (name &key (knowledge *knowledge*) (stream *standard-output*))
   "Write the grasp NAME to STREAM: its form, in words, where it is from, and which rules try it.
 Returns the grasp."
-  (let ((grasp (find-named (string name) knowledge :grasp)))
-    (write-grasp-form grasp stream)
-    (write-comment (grasp-comment grasp) stream)
-    (format stream "In words: ~{~a on ~a~^, ~}; the palm over ~a; ~{~a~^ ~} must be free.~%"
-            (loop with slots = (mapcar #'first (grasp-contacts grasp))
-                  for slot in (remove-duplicates slots :from-end t)
-                  collect (aref #("" "a finger" "two fingers" "three fingers") (count slot slots))
-                  collect (svref +slots+ slot))
-            (svref +slots+ (grasp-palm grasp))
-            (mapcar (lambda (slot) (svref +slots+ slot)) (grasp-used grasp)))
-    (format stream "It is tried by ~{~a~^, ~}.~%"
-            (or (loop for rule in (knowledge-rules knowledge)
-                      when (find grasp (rule-actions rule) :key #'action-target)
-                        collect (rule-name rule))
-                '("no rule")))
+  (let ((grasp (find-named name knowledge :grasp)))
+    (plainly
+      (write-grasp-form grasp stream)
+      (write-comment (grasp-comment grasp) stream)
+      (format stream "In words: ~{~a on ~a~^, ~}; the palm over ~a; ~{~a~^ ~} must be free.~%"
+              (fingers-on grasp (lambda (slot) (svref +slots+ slot)))
+              (svref +slots+ (grasp-palm grasp))
+              (mapcar (lambda (slot) (svref +slots+ slot)) (grasp-used grasp)))
+      (format stream "It is tried by ~a.~%"
+              (listed (or (loop for rule in (knowledge-rules knowledge)
+                                when (find grasp (rule-actions rule) :key #'action-target)
+                                  collect (rule-name rule))
+                          '("no rule")))))
     grasp))
 
 (defun write-grasp-form (grasp stream)
-  (format stream "(SETQ ~a~%  '(~{~a ~a~^~%    ~}))~%" (grasp-name grasp)
-          (loop for (key value) on (second (third (grasp-form grasp))) by #'cddr
-                collect key collect (form-text value))))
+  (format stream "(SETQ ~a~%  '(" (grasp-name grasp))
+  (loop for (key value . rest) on (second (third (grasp-form grasp))) by #'cddr
+        do (format stream "~a " key)
+           (write-filled value (+ 5 (length (symbol-name key))) stream)
+           (when rest (format stream "~%    ")))
+  (format stream "))~%"))
+
+(defparameter +line-width+ 96 "How wide the lines of a form are, where its parts allow it.")
+
+(defun write-filled (form column stream)
+  "Write FORM to STREAM from COLUMN, in several lines if one does not hold it.  Returns the column
+after it."
+  (let ((text (full-text form)))
+    (cond ((or (atom form) (<= (+ column (length text)) +line-width+))
+           (write-string text stream)
+           (+ column (length text)))
+          ((part-p form "QUOTE")
+           (write-string "'" stream)
+           (write-filled (second form) (1+ column) stream))
+          (t (write-string "(" stream)
+             (let ((place (1+ column)))
+               (loop for (part . rest) on form
+                     do (setf place (write-filled part place stream))
+                        (when rest
+                          (cond ((<= (+ place 1 (length (full-text (first rest)))) +line-width+)
+                                 (write-string " " stream)
+                                 (incf place))
+                                (t (format stream "~%~vt" (1+ column))
+                                   (setf place (1+ column))))))
+               (write-string ")" stream)
+               (1+ place))))))

@@ -149,7 +149,7 @@ input, where it comes from."
          (predicate (find-predicate rulebase words))
          (faces (loop for face in list collect (and (namep face) (surface-index face)))))
     (flet ((refuse (control &rest arguments)
-             (error 'no-fact-error :form form :text (apply #'format nil control arguments))))
+             (error 'no-fact-error :form form :text (apply #'plain-text control arguments))))
       (cond ((null words)
              (refuse "a fact is a list, as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)"))
             ((or (member "NOT" words :test #'string=) (member "NO" words :test #'string=))

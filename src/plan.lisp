@@ -7,12 +7,32 @@
 
 (defvar *plan* nil "The plan that FORWARD-CHAIN made last, or NIL.")
 
-(define-condition no-plan-error (supergrip-error) ()
-  (:report "there is no plan yet: call (forward-chain) first")
-  (:documentation "A question about a plan was asked before there was one."))
+(define-condition no-plan-error (supergrip-error)
+  ((given :initarg :given :initform nil))
+  (:report (lambda (condition stream)
+             (with-slots (given) condition
+               (if given
+                   (format stream "~a is no plan: FORWARD-CHAIN, PLAN and TRY-GRASP return plans"
+                           (form-text given))
+                   (write-string "there is no plan yet: call (forward-chain) first" stream)))))
+  (:documentation "A question about a plan was asked before there was one, or of something else."))
 
 (defun need-plan (plan)
-  (or plan (error 'no-plan-error)))
+  (if (plan-p plan) plan (error 'no-plan-error :given plan)))
+
+(defun name-of (designator)
+  "Return the name that DESIGNATOR, a symbol of any package, a string in any case, a rule or a grasp,
+stands for; NIL if it is none of these."
+  (typecase designator
+    (rule (rule-name designator))
+    (grasp (grasp-name designator))
+    ((or symbol string) (string-upcase designator))))
+
+(defun listed (names &optional (most 40))
+  "Return NAMES, a list, with commas between them; of many only the first MOST, and how many more."
+  (let ((left (- (length names) most)))
+    (format nil "~{~a~^, ~}~[~:; and ~:*~d more~]" (subseq names 0 (min most (length names)))
+            (max 0 left))))
 
 (defstruct (plan (:constructor %make-plan) (:copier nil))
   "What was decided for a box, and all that led to it."
@@ -34,13 +54,18 @@ A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from se
   (let ((memory (start-plan box knowledge gamma)))
     (finish-plan memory knowledge (run-rules (knowledge-rulebase knowledge) memory))))
 
-(defun try-grasp (name box &key (knowledge *knowledge*) (gamma *gamma*))
-  "Return a plan for BOX in which no rule has run: the grasp NAME, a string or a symbol, was tried
-in all matchings that use no constrained face, equivalent ones once.  Other arguments as for PLAN."
-  (let ((grasp (find-grasp (knowledge-graspbase knowledge) (string name)))
+(defun try-grasp (name &rest arguments)
+  "(TRY-GRASP NAME [BOX] &KEY KNOWLEDGE GAMMA): return a plan for BOX, by default what (setq box ...)
+gave, in which no rule has run: the grasp NAME, a string or a symbol, was tried in all matchings that
+use no constrained face, equivalent ones once.  Other arguments as for PLAN."
+  (if (or (null arguments) (keywordp (first arguments)))
+      (apply #'try-alone name (need-box) arguments)
+      (apply #'try-alone name arguments)))
+
+(defun try-alone (name box &key (knowledge *knowledge*) (gamma *gamma*))
+  (let ((grasp (or (find-grasp (knowledge-graspbase knowledge) (name-of name))
+                   (error 'no-grasp-error :name name :knowledge knowledge)))
         (memory (start-plan box knowledge gamma)))
-    (unless grasp
-      (error 'no-grasp-error :name name :knowledge knowledge))
     (try-matchings memory grasp +all-matchings+)
     (finish-plan memory knowledge nil (grasp-name grasp))))
 
@@ -48,11 +73,11 @@ in all matchings that use no constrained face, equivalent ones once.  Other argu
   ((name :initarg :name :reader no-grasp-error-name)
    (knowledge :initarg :knowledge :reader no-grasp-error-knowledge))
   (:report (lambda (condition stream)
-             (let ((name (string (no-grasp-error-name condition)))
+             (let ((name (no-grasp-error-name condition))
                    (known (mapcar #'grasp-name
                                   (knowledge-grasps (no-grasp-error-knowledge condition)))))
-               (format stream "there is no grasp ~a~a; grasps are ~{~a~^, ~}" name
-                       (suggestion (string-upcase name) known) known))))
+               (format stream "there is no grasp ~a~a; grasps are ~a" (form-text name)
+                       (suggestion (or (name-of name) "") known) (listed known)))))
   (:documentation "A grasp was named that the database lacks."))
 
 (defun new-memory (knowledge)
@@ -111,7 +136,7 @@ Rules that end without KEEP or CANT keep the best."
   ((gamma :initarg :gamma :reader gamma-error-gamma))
   (:report (lambda (condition stream)
              (format stream "gamma is ~a; it is a number from 0, forces alone, to 1, ~
-                             velocities alone" (gamma-error-gamma condition))))
+                             velocities alone" (form-text (gamma-error-gamma condition)))))
   (:documentation "The selection parameter is no number from 0 to 1."))
 
 (defun plan-verdict (plan)

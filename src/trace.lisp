@@ -62,7 +62,7 @@ rule, CONTINUE to the next break."))
 
 (defun pause (control &rest arguments)
   "Stop in the debugger, saying what CONTROL and ARGUMENTS say."
-  (let ((condition (make-condition 'chain-break :text (apply #'format nil control arguments))))
+  (let ((condition (make-condition 'chain-break :text (apply #'plain-text control arguments))))
     (restart-case (progn (signal condition) (invoke-debugger condition))
       (next-rule ()
         :report "Go on to the next rule."

@@ -13,6 +13,9 @@ far as it is known; SUBJECT is the rule, grasp or box (\"RULE GRIP1\"), PLACE th
 
 (defun write-problem (problem stream)
   "Write PROBLEM as FILE:LINE:COLUMN: SUBJECT, PLACE: TEXT, without the parts that are not known."
+  (plainly (write-problem-parts problem stream)))
+
+(defun write-problem-parts (problem stream)
   (format stream "~@[~a:~]~@[~d:~]~@[~d:~]" (problem-file problem) (problem-line problem)
           (problem-column problem))
   (when (or (problem-file problem) (problem-line problem)) (write-char #\Space stream))
@@ -33,6 +36,10 @@ far as it is known; SUBJECT is the rule, grasp or box (\"RULE GRIP1\"), PLACE th
 
 (define-condition supergrip-error (error) ()
   (:documentation "Everything that SUPER-GRIP itself signals."))
+
+(defmethod print-object :around ((condition supergrip-error) stream)
+  (declare (ignorable stream))
+  (plainly (call-next-method)))
 
 (define-condition input-error (supergrip-error)
   ((problems :initarg :problems :reader input-error-problems
@@ -63,6 +70,10 @@ goes on without the rules and grasps that are wrong."))
              (format stream "~{~a~^~%~}" (knowledge-warning-problems condition))))
   (:documentation "Rules or grasps are valid but can't be meant so."))
 
+(defmethod print-object :around ((condition knowledge-warning) stream)
+  (declare (ignorable stream))
+  (plainly (call-next-method)))
+
 (defun retry ()
   "Invoke the restart RETRY: read the knowledge files again."
   (invoke-restart 'retry))
@@ -87,7 +98,7 @@ A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL."
   (let* ((severity (if (consp control) (first control) :error))
          (control (if (consp control) (second control) control))
          (parts (list severity *file* (line-of form) *subject* *place*
-                      (apply #'format nil control arguments))))
+                      (apply #'plain-text control arguments))))
     (unless (gethash parts *noted*)
       (setf (gethash parts *noted*) t)
       (destructuring-bind (severity file line subject place text) parts

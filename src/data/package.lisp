@@ -10,6 +10,8 @@ in them.")
    #:problem-subject #:problem-place #:problem-text
    #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
    #:make-problem #:errors-in #:warnings-in #:suggestion
+   ;; text
+   #:plainly #:plain-text
    ;; conditions
    #:supergrip-error #:input-error #:input-error-problems
    #:syntax-error #:box-error #:knowledge-error #:knowledge-error-consequence

@@ -57,7 +57,7 @@ end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an erro
 (defun fail-at (source line column control &rest arguments)
   (error 'syntax-error
          :problems (list (make-problem :file (source-name source) :line line :column column
-                                       :text (apply #'format nil control arguments)))))
+                                       :text (apply #'plain-text control arguments)))))
 
 (defun fail (source control &rest arguments)
   (apply #'fail-at source (source-line source) (source-column source) control arguments))
@@ -356,7 +356,7 @@ have returned it.  Signals a SYNTAX-ERROR if it holds anything else, or too much
   (let ((room *record-limit*))
     (labels ((refuse (control &rest arguments)
                (error 'syntax-error
-                      :problems (list (make-problem :text (apply #'format nil control arguments)))))
+                      :problems (list (make-problem :text (apply #'plain-text control arguments)))))
              (walk (form depth)
                (when (minusp (decf room))
                  (refuse "a form of more than ~d parts, or a circular one" *record-limit*))

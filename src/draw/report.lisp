@@ -372,7 +372,7 @@ needed."
 (defun rule-lines (rule)
   "Return the text of RULE, a clause or an action a line."
   (destructuring-bind (name conditions actions) (rest (supergrip-chainer:rule-form rule))
-    (flet ((text (form) (supergrip-data:form-text form)))
+    (flet ((text (form) (supergrip-data:form-text form nil)))
       (format nil "(RULE ~a~%  (IF ~{~a~^~%      ~})~%  (THEN ~{~a~^~%        ~}))" (text name)
               (mapcar #'text (rest conditions)) (mapcar #'text (rest actions))))))
 
