@@ -123,6 +123,7 @@
                (:file "engines")
                (:file "spoiled")
                (:file "explain")
+               (:file "plain")
                (:file "edit")
                (:file "json")
                (:file "record")

@@ -103,7 +103,7 @@ slot, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
 (defun plan-like (plan box)
   "Return the plan for BOX, made as PLAN was."
   (if (plan-alone plan)
-      (try-grasp (plan-alone plan) box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))
+      (try-alone (plan-alone plan) box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))
       (plan box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))))
 
 (defun find-change (plan key index)

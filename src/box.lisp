@@ -40,7 +40,8 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
 
 (defmethod print-object ((box box) stream)
   (print-unreadable-object (box stream :type t)
-    (format stream "~@[~s ~]~{~a~^ x ~} cm" (box-name box) (mapcar #'form-text (box-size box)))))
+    (plainly
+      (format stream "~@[~s ~]~{~a~^ x ~} cm" (box-name box) (mapcar #'form-text (box-size box))))))
 
 ;;; Reading
 

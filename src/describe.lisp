@@ -4,9 +4,10 @@
 
 (defun find-named (name knowledge kind)
   "Return the rule or grasp, as KIND says, NAME of KNOWLEDGE, or signal a NO-RULE-ERROR."
-  (let ((rule (find-rule (knowledge-rulebase knowledge) name))
-        (grasp (find-grasp (knowledge-graspbase knowledge) name))
-        (rule-p (eq kind :rule)))
+  (let* ((word (name-of name))
+         (rule (and word (find-rule (knowledge-rulebase knowledge) word)))
+         (grasp (and word (find-grasp (knowledge-graspbase knowledge) word)))
+         (rule-p (eq kind :rule)))
     (or (if rule-p rule grasp)
         (error 'no-rule-error :name name
                               :hint (cond (rule "a rule: see DESCRIBE-RULE")

@@ -42,7 +42,8 @@ hold into force.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
   "Return where in FORMS the new FORM goes: before the rule BEFORE, or, if that is NIL, a rule before
 the last one, which keeps the best; anything else at the end."
   (cond (before
-         (or (position-if (lambda (other) (and (consp (rest other)) (name= (second other) before)))
+         (or (position-if (lambda (other) (and (consp (rest other))
+                                              (name= (second other) (or (name-of before) ""))))
                           forms)
              (error 'no-rule-error :name before
                                    :known (mapcar #'rule-name (knowledge-rules *knowledge*)))))
@@ -120,7 +121,8 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
 
 (defmethod print-object ((difference difference) stream)
   (print-unreadable-object (difference stream :type t)
-    (format stream "~a" (difference-what difference))))
+    (plainly
+      (format stream "~a" (difference-what difference)))))
 
 (defun plan-difference (old new)
   "Return what of the plans OLD and NEW differs, or NIL."
@@ -129,10 +131,18 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
         ((not (same-choice-p old new)) :grasp)
         ((> (abs (- (plan-quality old) (plan-quality new))) +tie+) :quality)))
 
+(defun one-box-p (object)
+  "True if OBJECT is a box, or describes one, and is no list of boxes."
+  (or (and object (atom object))
+      (namep (first object))            ; (SETQ BOX '...), '...
+      (some (lambda (clause) (and (consp clause) (namep (first clause)) (key-named (first clause))))
+            object)))
+
 (defun compare-knowledge (old new boxes &key (gamma *gamma*) (stream *standard-output*))
   "Plan each of BOXES with the knowledge OLD and with NEW; write what differs to STREAM (NIL: do not)
 and return a list of DIFFERENCEs, in the order of BOXES."
-  (let ((differences
+  (let* ((boxes (if (one-box-p boxes) (list boxes) boxes))
+         (differences
           (loop for box in boxes
                 for old-plan = (plan box :knowledge old :gamma gamma)
                 for new-plan = (plan box :knowledge new :gamma gamma)
@@ -143,11 +153,12 @@ and return a list of DIFFERENCEs, in the order of BOXES."
     (when stream
       (dolist (difference differences)
         (write-difference difference stream))
-      (format stream "~d of ~d boxes differ: ~d in verdict, ~d in grasp, ~d in quality.~%"
-              (length differences) (length boxes)
-              (count :verdict differences :key #'difference-what)
-              (count :grasp differences :key #'difference-what)
-              (count :quality differences :key #'difference-what)))
+      (plainly
+        (format stream "~d of ~d boxes differ: ~d in verdict, ~d in grasp, ~d in quality.~%"
+                (length differences) (length boxes)
+                (count :verdict differences :key #'difference-what)
+                (count :grasp differences :key #'difference-what)
+                (count :quality differences :key #'difference-what))))
     differences))
 
 (defun write-difference (difference stream)
@@ -155,7 +166,9 @@ and return a list of DIFFERENCEs, in the order of BOXES."
            (if (plan-best plan)
                (format nil "~a Q=~a" (choice-text plan) (three-decimals (plan-quality plan)))
                "can't")))
-    (format stream "~a: ~a, was ~a~%"
-            (or (box-name (difference-box difference))
-                (format nil "~{~a~^ x ~} cm" (mapcar #'figure (box-size (difference-box difference)))))
-            (text (difference-new difference)) (text (difference-old difference)))))
+    (plainly
+      (format stream "~a: ~a, was ~a~%"
+              (or (box-name (difference-box difference))
+                  (format nil "~{~a~^ x ~} cm"
+                          (mapcar #'figure (box-size (difference-box difference)))))
+              (text (difference-new difference)) (text (difference-old difference))))))

@@ -13,16 +13,21 @@
                (format stream "~a is no fact that could be known: ~a" (form-text form) text))))
   (:documentation "A question was asked about a sentence that no rule or input speaks of."))
 
+(defparameter +later-plan+
+  "The knowledge in force has it, but the plan was made before: call (forward-chain) again."
+  "What is said of a name that a plan's knowledge lacks.")
+
 (define-condition no-rule-error (supergrip-error)
   ((name :initarg :name) (known :initarg :known) (hint :initarg :hint :initform nil))
   (:report (lambda (condition stream)
              (with-slots (name known hint) condition
-               (if hint
-                   (format stream "~a is ~a" name hint)
-                   (format stream "there is no rule or grasp ~a~a; there are ~{~a~^, ~}~@[~%~a~]"
-                           name (suggestion (string-upcase name) known) known
-                           (and (in-force-p name)
-                                "The knowledge in force has it, but the plan was made before: call (forward-chain) again."))))))
+               (cond (hint (format stream "~a is ~a" (form-text name) hint))
+                     ((null (name-of name))
+                      (format stream "~a is no name: rules and grasps are named by symbols or strings"
+                              (form-text name)))
+                     (t (format stream "there is no rule or grasp ~a~a; there are ~a~@[~%~a~]"
+                                (name-of name) (suggestion (name-of name) known) (listed known)
+                                (and (in-force-p (name-of name)) +later-plan+)))))))
   (:documentation "A question was asked about a name that is neither a rule's nor a grasp's."))
 
 (defstruct explanation "What all answers to a question have in common.")
@@ -47,6 +52,10 @@
 (defgeneric write-answer (answer stream)
   (:documentation "Write ANSWER, an explanation, to STREAM in words."))
 
+(defmethod write-answer :around (answer stream)
+  (declare (ignorable answer stream))
+  (plainly (call-next-method)))
+
 (defun print-answer (object)
   "Print OBJECT, an explanation, and return it."
   (write-answer object *standard-output*)
@@ -58,7 +67,7 @@
 
 (defun fact-text (predicate packed)
   "Return the sentence of PREDICATE and the faces of PACKED as a list in print."
-  (format nil "(~a~@[ (~{~a~^ ~})~])" (predicate-text predicate) (pack-names packed)))
+  (plain-text "(~a~@[ (~{~a~^ ~})~])" (predicate-text predicate) (pack-names packed)))
 
 (defun write-indent (stream depth)
   (fresh-line stream)
@@ -105,62 +114,98 @@ input, where it comes from."
                      (figure (knowledge-slippery-u knowledge))))
             (t "an input")))))
 
-(defvar *derived* nil "A table from facts to their derivations, while a derivation is made, or NIL.")
+;;; A fact follows only from what was known before it, so the derivations of a whole log are made in its
+;;; order, each from those before: however long a chain is, nothing nests.
 
-(defun derive (plan predicate packed)
-  "Return the derivation of a fact that is known at the end of PLAN."
-  (let ((*derived* (or *derived* (make-hash-table :test #'equal)))
-        (fact (cons (predicate-index predicate) (pack-mask packed))))
-    ;; What many facts follow from is derived once.
-    (or (gethash fact *derived*)
-        (setf (gethash fact *derived*)
-              (let ((event (fact-event plan predicate packed)))
-                (if event
-                    (derive-event event plan)
-                    (derive-input predicate packed plan)))))))
+(defun fact-key (predicate packed)
+  (+ (* 64 (predicate-index predicate)) (pack-mask packed)))
 
-(defun derive-input (predicate packed plan)
-  (make-derivation :predicate predicate
-                   :packed (find (pack-mask packed) (facts (plan-memory plan) predicate)
-                                 :key #'pack-mask)
-                   :note (input-note predicate packed plan)))
+(defun derivations (plan)
+  "Return a table from FACT-KEYs to the derivations of all that the rules of PLAN remembered."
+  (let ((table (make-hash-table)) (rulebase (plan-rulebase plan)) (memory (plan-memory plan)))
+    (dolist (event (plan-log plan) table)
+      (when (integerp event)
+        (multiple-value-bind (predicate packed) (event-fact event rulebase)
+          (let ((rule (event-rule event rulebase)) (binding (event-binding event)))
+            (setf (gethash (fact-key predicate packed) table)
+                  (make-derivation :predicate predicate :packed packed :rule rule :binding binding
+                                   :parts (loop for clause in (rule-clauses rule)
+                                                collect (clause-part clause rule binding table
+                                                                     memory plan))))))))))
 
-(defun derive-event (event plan)
-  (let ((rule (event-rule event (plan-rulebase plan)))
-        (binding (event-binding event)))
-    (multiple-value-bind (predicate packed) (event-fact event (plan-rulebase plan))
-      (make-derivation :predicate predicate :packed packed :rule rule :binding binding
-                       :parts (loop for clause in (rule-clauses rule)
-                                    collect (clause-part clause rule binding plan))))))
-
-(defun clause-part (clause rule binding plan)
-  "Return what met CLAUSE of RULE under BINDING."
+(defun clause-part (clause rule binding table memory plan)
+  "Return what met CLAUSE of RULE under BINDING: a derivation, from TABLE if it has it, or an
+assumption."
   (let ((packed (instantiate (clause-terms clause) binding)))
     (if (clause-negated clause)
         (make-assumption :predicate (clause-predicate clause) :packed packed :rule rule)
-        (derive plan (clause-predicate clause) packed))))
+        (derivation-in table (clause-predicate clause) packed memory plan))))
+
+(defun derivation-in (table predicate packed memory plan)
+  "Return the derivation of a fact that MEMORY holds: from TABLE, or, for an input, a new one."
+  (or (gethash (fact-key predicate packed) table)
+      (make-derivation :predicate predicate
+                       :packed (find (pack-mask packed) (facts memory predicate) :key #'pack-mask)
+                       :note (input-note predicate packed plan))))
+
+(defun derive (plan predicate packed)
+  "Return the derivation of a fact that is known at the end of PLAN."
+  (derivation-in (derivations plan) predicate packed (plan-memory plan) plan))
+
+(defun spelled (object)
+  "Return what OBJECT, a string, spells: its one list, or the list of what stands in it.  Anything else
+is returned as it is, and so is a string that can't be read."
+  (if (stringp object)
+      (let ((forms (handler-case (read-all (string-source object))
+                     (syntax-error () (list object)))))
+        (if (consp (first forms)) (first forms) forms))
+      object))
+
+(defun word-text (object)
+  "Return the letters of OBJECT, a name or a string, as our reader would read them; else NIL."
+  (and (or (namep object) (stringp object)) (string-upcase object)))
+
+(defun canonical-fact (form)
+  "Return FORM, which may be a string or hold strings, as our reader would have read it, or signal a
+NO-FACT-ERROR."
+  (handler-case (let ((form (canonical (spelled form))))
+                  (labels ((walk (part)
+                             (cond ((stringp part) (canonical-name (string-upcase part)))
+                                   ((consp part) (mapcar #'walk part))
+                                   (t part))))
+                    (walk form)))
+    (syntax-error (condition)
+      (error 'no-fact-error :form form
+                            :text (plain-text "~a; a fact is a list, as (PARALLEL (Y2 Y1))"
+                                              (problem-text
+                                               (first (input-error-problems condition))))))))
 
 (defun parse-fact (form rulebase)
-  "Return the predicate and the packed faces that FORM, as (PARALLEL (Y2 Y1)), means in RULEBASE."
-  (let* ((form (canonical form))
-         (list (and (consp form) (find-if #'consp form)))
+  "Return the predicate and the packed faces that FORM, as (PARALLEL (Y2 Y1)), means in RULEBASE.  FORM
+may be a string, or have strings for names."
+  (let* ((form (canonical-fact form))
+         (lists (and (consp form) (remove-if-not #'consp form)))
          (words (and (consp form) (loop for word in form when (namep word)
                                         collect (symbol-name word))))
          (predicate (find-predicate rulebase words))
-         (faces (loop for face in list collect (and (namep face) (surface-index face)))))
+         (faces (loop for face in (first lists)
+                      collect (and (namep face) (surface-index face)))))
     (flet ((refuse (control &rest arguments)
-             (error 'no-fact-error :form form :text (apply #'plain-text control arguments))))
+             (error 'no-fact-error :form form :text (apply #'plain-text control arguments)))
+           (known () (map 'list #'predicate-text (rulebase-predicates rulebase))))
       (cond ((null words)
              (refuse "a fact is a list, as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)"))
-            ((or (member "NOT" words :test #'string=) (member "NO" words :test #'string=))
+            ((intersection '("NOT" "NO") words :test #'string=)
              (refuse "ask about the sentence without NOT or NO"))
-            ((and (null list) (find-if #'loose-surface-p form))
+            ((and (null lists) (find-if #'loose-surface-p form))
              (refuse "surfaces stand in a list of their own: ~a" (form-text (list-surfaces form))))
+            ((rest lists) (refuse "ask about one list of surfaces at a time"))
+            ((find-if-not #'namep (remove-if #'consp form))
+             (refuse "~a can't stand in a fact"
+                     (form-text (find-if-not #'namep (remove-if #'consp form)))))
             ((null predicate)
-             (refuse "nothing speaks of ~{~a~^ ~}~a; known are ~{~a~^, ~}" words
-                     (suggestion (format nil "~{~a~^ ~}" words)
-                                 (map 'list #'predicate-text (rulebase-predicates rulebase)))
-                     (map 'list #'predicate-text (rulebase-predicates rulebase))))
+             (refuse "nothing speaks of ~{~a~^ ~}~a; known are ~a" words
+                     (suggestion (format nil "~{~a~^ ~}" words) (known)) (listed (known))))
             ((or (member nil faces) (/= (length faces) (length (remove-duplicates faces)))
                  (/= (length faces) (predicate-arity predicate)))
              (refuse "~a takes ~[no surfaces~;one surface~:;~:*~d different surfaces~] of X1 X2 Y1 ~
@@ -169,19 +214,25 @@ input, where it comes from."
 
 (defstruct (unknown-fact (:include explanation))
   "A fact that is not known at the end of a plan.  REFUSALS says why each rule that could have
-derived it did not."
-  predicate packed refusals)
+derived it did not, of many rules for the first; MORE is how many are left out."
+  predicate packed refusals (more 0))
+
+(defparameter +most-refusals+ 20 "Of how many rules an answer says why they did not fire.")
 
 (defun explain-fact (form &optional (plan *plan*))
   "Return how the fact FORM came to be known in PLAN: a DERIVATION, or an UNKNOWN-FACT."
   (let ((plan (need-plan plan)))
     (multiple-value-bind (predicate packed) (parse-fact form (plan-rulebase plan))
-      (if (recall (plan-memory plan) predicate packed)
-          (derive plan predicate packed)
-          (make-unknown-fact :predicate predicate :packed packed
-                             :refusals (loop for rule in (deriving-rules predicate plan)
-                                             collect (refuse-conclusion rule predicate packed
-                                                                        plan)))))))
+      (plainly
+        (if (recall (plan-memory plan) predicate packed)
+            (derive plan predicate packed)
+            (let* ((rules (deriving-rules predicate plan))
+                   (most (min +most-refusals+ (length rules))))
+              (make-unknown-fact :predicate predicate :packed packed
+                                 :more (- (length rules) most)
+                                 :refusals (loop for rule in (subseq rules 0 most)
+                                                 collect (refuse-conclusion rule predicate packed
+                                                                            plan)))))))))
 
 (defun how (fact &optional (plan *plan*))
   "Print and return how FACT, as '(PARALLEL (Y2 Y1)), came to be known in PLAN: the tree of rules,
@@ -195,27 +246,46 @@ bindings and facts down to the box; negations as assumed when they were tested."
           collect rule))
 
 (defmethod write-answer ((answer derivation) stream)
-  (write-derivation answer stream 0 '()))
+  (write-tree answer stream 0))
 
-(defun write-derivation (derivation stream depth seen)
-  "Write DERIVATION at DEPTH.  Returns the derivations written so far, SEEN first: what is told once
-is not told again."
-  (let ((text (fact-text (derivation-predicate derivation) (derivation-packed derivation))))
-    (write-indent stream depth)
-    (write-string text stream)
-    (cond ((null (derivation-rule derivation))
-           (format stream ": input, ~a" (derivation-note derivation))
-           seen)
-          ((member text seen :test #'string=)
-           (write-string ": as above" stream)
-           seen)
-          (t
-           (write-rule-line derivation stream)
-           (push text seen)
-           (dolist (part (derivation-parts derivation) seen)
-             (if (assumption-p part)
-                 (write-assumption part stream (1+ depth))
-                 (setf seen (write-derivation part stream (1+ depth) seen))))))))
+(defparameter +most-lines+ 400 "How many lines of a tree are written.")
+(defparameter +most-depth+ 50 "How deep a tree is written.")
+
+(defun write-tree (derivation stream depth)
+  "Write DERIVATION and what it follows from, at DEPTH, each fact once.  Of a great tree a part is
+written, and how much is left out."
+  (let ((told (make-hash-table :test #'eq)) (lines 0))
+    (labels ((write-it (derivation level)
+               (incf lines)
+               (write-indent stream level)
+               (write-string (topic derivation) stream)
+               (cond ((null (derivation-rule derivation))
+                      (format stream ": input, ~a" (derivation-note derivation)))
+                     ((gethash derivation told) (write-string ": as above" stream))
+                     ((>= (- level depth) +most-depth+)
+                      (format stream ": ask (how '~a)" (topic derivation)))
+                     (t (setf (gethash derivation told) t)
+                        (write-rule-line derivation stream)
+                        (dolist (part (derivation-parts derivation))
+                          (when (< lines +most-lines+)
+                            (if (assumption-p part)
+                                (progn (incf lines) (write-assumption part stream (1+ level)))
+                                (write-it part (1+ level)))))))))
+      (write-it derivation depth)
+      (let ((left (- (count-derived derivation) (hash-table-count told))))
+        (when (plusp left)
+          (write-indent stream depth)
+          (format stream "~d more derived fact~:p in this tree ~:*~[~;is~:;are~] left out." left))))))
+
+(defun count-derived (derivation)
+  "Return how many facts the tree of DERIVATION derives by rules."
+  (let ((seen (make-hash-table :test #'eq)) (left (list derivation)))
+    (loop while left
+          do (let ((next (pop left)))
+               (when (and (derivation-p next) (derivation-rule next) (not (gethash next seen)))
+                 (setf (gethash next seen) t)
+                 (dolist (part (derivation-parts next)) (push part left)))))
+    (hash-table-count seen)))
 
 (defun write-rule-line (derivation stream)
   (let ((binding (binding-text (derivation-rule derivation) (derivation-binding derivation))))
@@ -232,8 +302,7 @@ is not told again."
   (format stream "~a is not known.~%"
           (fact-text (unknown-fact-predicate answer) (unknown-fact-packed answer)))
   (if (unknown-fact-refusals answer)
-      (dolist (refusal (unknown-fact-refusals answer))
-        (write-answer refusal stream))
+      (write-refusals (unknown-fact-refusals answer) (unknown-fact-more answer) stream)
       (format stream "It is an input, which this box does not give.~%")))
 
 ;;; In print

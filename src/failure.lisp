@@ -187,19 +187,20 @@
                       when (plusp share) collect (figure share) and collect (axis-name axis))
                 (figure (total-share shares))))))
 
-(defun candidate-failure (candidate plan)
+(defun candidate-failure (candidate &optional (plan *plan*))
   "Return why CANDIDATE of PLAN is not possible: the step (see CANDIDATE-OUTCOME) and a sentence
 with the figures.  NIL if it is possible."
   (let ((outcome (candidate-outcome candidate)))
     (unless (eq outcome :possible)
       (with-replay (attempt candidate plan)
         (values outcome
-                (ecase outcome
-                  (:conditions (describe-condition-failure candidate attempt))
-                  (:offset (describe-offset-failure candidate attempt))
-                  (:fingers (describe-finger-failure candidate attempt))
-                  (:open (describe-open candidate attempt))
-                  (:lifting (describe-lifting-failure attempt))))))))
+                (plainly
+                  (ecase outcome
+                    (:conditions (describe-condition-failure candidate attempt))
+                    (:offset (describe-offset-failure candidate attempt))
+                    (:fingers (describe-finger-failure candidate attempt))
+                    (:open (describe-open candidate attempt))
+                    (:lifting (describe-lifting-failure attempt)))))))))
 
 ;;; The nearest miss
 
@@ -247,10 +248,10 @@ be said, or if it is no less than LEAST.  ATTEMPT, at its box, is used to replay
             (when (or (null least) (< shortfall (- least +tie+)))
               (setf best candidate least shortfall))))))))
 
-(defun plan-reason (plan)
+(defun plan-reason (&optional (plan *plan*))
   "Return why the box of PLAN can't be grasped, a string: what the rule said, or the nearest miss.
 NIL if it can."
-  (let* ((stop (plan-stop plan))
+  (let* ((stop (plan-stop (need-plan plan)))
          (said (and stop (eq (stop-verdict stop) :cant)))
          (miss (and (not said) (not (plan-best plan)) (nearest-of (plan-candidates plan) plan))))
     (cond ((plan-best plan) nil)

@@ -23,7 +23,8 @@ axis does, -1 where it does not."
 
 (defmethod print-object ((matching matching) stream)
   (print-unreadable-object (matching stream :type t)
-    (format stream "~{~a~^ ~}" (matching-names matching))))
+    (plainly
+      (format stream "~{~a~^ ~}" (matching-names matching)))))
 
 (defun permutation-sign (axes)
   "Return 1 if the three AXES are an even permutation of 0 1 2, else -1."

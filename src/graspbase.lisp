@@ -35,7 +35,8 @@ start from."
 
 (defmethod print-object ((graspbase graspbase) stream)
   (print-unreadable-object (graspbase stream :type t)
-    (format stream "~d grasps" (length (graspbase-grasps graspbase)))))
+    (plainly
+      (format stream "~d grasps" (length (graspbase-grasps graspbase))))))
 
 (defun find-grasp (graspbase name)
   "Return the grasp of GRASPBASE that has NAME, or NIL."

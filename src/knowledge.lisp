@@ -19,8 +19,9 @@ prevent it."
 
 (defmethod print-object ((knowledge knowledge) stream)
   (print-unreadable-object (knowledge stream :type t)
-    (format stream "~d rules, ~d grasps" (length (knowledge-rules knowledge))
-            (length (knowledge-grasps knowledge)))))
+    (plainly
+      (format stream "~d rules, ~d grasps" (length (knowledge-rules knowledge))
+              (length (knowledge-grasps knowledge))))))
 
 (defun knowledge-rules (knowledge)
   "Return the rules of KNOWLEDGE, a list, in the order in which they run."

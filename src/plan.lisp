@@ -17,9 +17,6 @@
                    (write-string "there is no plan yet: call (forward-chain) first" stream)))))
   (:documentation "A question about a plan was asked before there was one, or of something else."))
 
-(defun need-plan (plan)
-  (if (plan-p plan) plan (error 'no-plan-error :given plan)))
-
 (defun name-of (designator)
   "Return the name that DESIGNATOR, a symbol of any package, a string in any case, a rule or a grasp,
 stands for; NIL if it is none of these."
@@ -40,12 +37,16 @@ stands for; NIL if it is none of these."
   (stop nil) (best nil) (log '() :type list) (facts nil :type (or null saved-facts))
   (alone nil))                          ; the name of the grasp that was tried without rules
 
+(defun need-plan (plan)
+  (if (plan-p plan) plan (error 'no-plan-error :given plan)))
+
 (defmethod print-object ((plan plan) stream)
   (print-unreadable-object (plan stream :type t)
-    (if (plan-best plan)
-        (format stream "~a (~{~a~^ ~}) Q=~,3f" (plan-grasp plan) (plan-matching plan)
-                (plan-quality plan))
-        (format stream "can't: ~a" (plan-reason plan)))))
+    (plainly
+      (if (plan-best plan)
+          (format stream "~a (~{~a~^ ~}) Q=~,3f" (plan-grasp plan) (plan-matching plan)
+                  (plan-quality plan))
+          (format stream "can't: ~a" (plan-reason plan))))))
 
 (defun plan (box &key (knowledge *knowledge*) (gamma *gamma*))
   "Return the plan for BOX, a box or a description of one (see PARSE-BOX).
@@ -63,7 +64,8 @@ use no constrained face, equivalent ones once.  Other arguments as for PLAN."
       (apply #'try-alone name arguments)))
 
 (defun try-alone (name box &key (knowledge *knowledge*) (gamma *gamma*))
-  (let ((grasp (or (find-grasp (knowledge-graspbase knowledge) (name-of name))
+  (let ((grasp (or (and (name-of name)
+                        (find-grasp (knowledge-graspbase knowledge) (name-of name)))
                    (error 'no-grasp-error :name name :knowledge knowledge)))
         (memory (start-plan box knowledge gamma)))
     (try-matchings memory grasp +all-matchings+)
@@ -139,45 +141,45 @@ Rules that end without KEEP or CANT keep the best."
                              velocities alone" (form-text (gamma-error-gamma condition)))))
   (:documentation "The selection parameter is no number from 0 to 1."))
 
-(defun plan-verdict (plan)
+(defun plan-verdict (&optional (plan *plan*))
   "Return :GRASP if PLAN found a grasp, :CANT if the box can't be grasped."
-  (if (plan-best plan) :grasp :cant))
+  (if (plan-best (need-plan plan)) :grasp :cant))
 
-(defun plan-candidates (plan)
+(defun plan-candidates (&optional (plan *plan*))
   "Return the candidates of PLAN, a new list, in the order in which they were tried."
-  (loop for event in (plan-log plan) when (candidate-p event) collect event))
+  (loop for event in (plan-log (need-plan plan)) when (candidate-p event) collect event))
 
 (defun possible-p (candidate)
   (eq (%candidate-outcome candidate) :possible))
 
-(defun plan-possible (plan)
+(defun plan-possible (&optional (plan *plan*))
   "Return the possible grasps of PLAN, candidates, the best first; equals as they were tried."
   ;; STABLE-SORT destroys its list: it gets one that nobody else holds.
   (stable-sort (loop for candidate in (plan-candidates plan)
                      when (possible-p candidate) collect candidate)
                #'> :key #'%candidate-quality))
 
-(defun plan-rejected (plan)
+(defun plan-rejected (&optional (plan *plan*))
   "Return the candidates of PLAN that failed, in the order in which they were tried."
   (remove-if #'possible-p (plan-candidates plan)))
 
-(defun plan-assertions (plan)
+(defun plan-assertions (&optional (plan *plan*))
   "Return the assertions at the end of PLAN: a list a predicate, its words followed by its lists of
 surfaces, all strings."
-  (assertions (plan-memory plan) (knowledge-predicates (plan-knowledge plan))))
+  (assertions (plan-memory (need-plan plan)) (knowledge-predicates (plan-knowledge plan))))
 
-(defun plan-grasp (plan)
+(defun plan-grasp (&optional (plan *plan*))
   "Return the name of the best grasp of PLAN, a string, or NIL."
-  (and (plan-best plan) (candidate-grasp (plan-best plan))))
+  (and (plan-best (need-plan plan)) (candidate-grasp (plan-best plan))))
 
-(defun plan-matching (plan)
+(defun plan-matching (&optional (plan *plan*))
   "Return the matching of the best grasp of PLAN: the names of the faces that N1 N2 O1 O2 A1 A2
 take; or NIL."
-  (and (plan-best plan) (candidate-matching (plan-best plan))))
+  (and (plan-best (need-plan plan)) (candidate-matching (plan-best plan))))
 
-(defun plan-quality (plan)
+(defun plan-quality (&optional (plan *plan*))
   "Return the quality index of the best grasp of PLAN, a double, or NIL."
-  (and (plan-best plan) (candidate-quality (plan-best plan))))
+  (and (plan-best (need-plan plan)) (candidate-quality (plan-best plan))))
 
 ;;; Candidates
 
@@ -249,7 +251,7 @@ figures."
 (defmacro with-attempt ((attempt plan) &body body)
   "Run BODY with ATTEMPT, one at the box of PLAN, which is given back after it."
   (let ((memory (gensym)) (the-plan (gensym)))
-    `(let* ((,the-plan ,plan)
+    `(let* ((,the-plan (need-plan ,plan))
             (,memory (start-plan (plan-box ,the-plan) (plan-knowledge ,the-plan)
                                  (plan-gamma ,the-plan)))
             (,attempt (memory-client ,memory)))
@@ -262,7 +264,7 @@ figures."
      (replay ,candidate ,attempt)
      ,@body))
 
-(defun candidate-contacts (candidate plan)
+(defun candidate-contacts (candidate &optional (plan *plan*))
   "Return the contacts of CANDIDATE, which is possible in PLAN: a list of plists with :SURFACE, the
 name of a box face, :POSITION and :NORMAL, lists along X Y Z in the box frame at the box centre;
 positions in cm, the normals point inward."
@@ -288,14 +290,14 @@ positions in cm, the normals point inward."
                     (* (if (evenp slot) 0.5d0 -0.5d0) (aref (attempt-lengths attempt) i))
                     (+ (aref (attempt-centre attempt) i) (pop rest)))))))))
 
-(defun candidate-wrench (candidate plan)
+(defun candidate-wrench (candidate &optional (plan *plan*))
   "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, gravity's load not taken off:
 six numbers, forces in finger forces, torques in finger force x cm.  NIL where it failed before."
   (and (member (candidate-outcome candidate) '(:possible :lifting))
        (with-replay (attempt candidate plan)
          (coerce (attempt-wrench attempt) 'list))))
 
-(defun candidate-twist (candidate plan)
+(defun candidate-twist (candidate &optional (plan *plan*))
   "Return the mobility of CANDIDATE of PLAN along X Y Z and about X Y Z, six numbers.
 NIL where it failed before."
   (and (member (candidate-outcome candidate) '(:possible :lifting))

@@ -67,15 +67,23 @@ first clause that fails for all of them.  NIL if none does."
 
 (defun blocking-facts (clause bindings plan)
   "Return the derivations of the facts that contradict CLAUSE, negated, under BINDINGS."
-  (remove-duplicates
-   (loop for binding in bindings
-         when (every (lambda (term) (or (not (term-variable-p term))
-                                        (< term (pack-count binding))))
-                     (clause-terms clause))
-           append (let ((packed (instantiate (clause-terms clause) binding)))
-                    (and (recall (plan-memory plan) (clause-predicate clause) packed)
-                         (list (derive plan (clause-predicate clause) packed)))))
-   :key (lambda (derivation) (pack-mask (derivation-packed derivation))) :from-end t))
+  (let ((table (derivations plan)) (memory (plan-memory plan)) (predicate (clause-predicate clause)))
+    (loop for packed in (remove-duplicates
+                         (loop for binding in bindings
+                               when (every (lambda (term) (or (not (term-variable-p term))
+                                                              (< term (pack-count binding))))
+                                           (clause-terms clause))
+                                 collect (instantiate (clause-terms clause) binding))
+                         :key #'pack-mask :from-end t)
+          when (recall memory predicate packed)
+            collect (derivation-in table predicate packed memory plan))))
+
+(defun write-refusals (refusals more stream)
+  "Write REFUSALS, and that there are MORE."
+  (dolist (refusal refusals)
+    (write-answer refusal stream))
+  (when (plusp more)
+    (format stream "~d more rule~:p did not either.~%" more)))
 
 (defmethod write-answer ((answer refusal) stream)
   (let ((rule (refusal-rule answer)))
@@ -116,7 +124,7 @@ first clause that fails for all of them.  NIL if none does."
     (if (clause-negated clause)
         (dolist (block (refusal-blocks refusal))
           (format stream "  In its way stands~%")
-          (write-derivation block stream 2 '())
+          (write-tree block stream 2)
           (terpri stream))
         (format stream "  ~a~%" (missing-text clause (or (> (refusal-number refusal) 1)
                                                          (refusal-elsewhere refusal)))))))

@@ -11,11 +11,10 @@ many bindings, 3 also every action and the candidates that fail, 4 also what mee
 
 (defun check-name (name)
   "Return NAME as a string if it names a rule or a grasp, or signal a NO-RULE-ERROR."
-  (let ((name (string-upcase name)))
-    (if (in-force-p name)
-        name
-        (error 'no-rule-error :name name
-                              :known (known-names *knowledge*)))))
+  (let ((word (name-of name)))
+    (if (and word (in-force-p word))
+        word
+        (error 'no-rule-error :name name :known (known-names *knowledge*)))))
 
 (defun trace-rule (&rest names)
   "Trace the rules NAMES in full, whatever the level: at level 0, they alone are traced.  Returns the
@@ -29,7 +28,7 @@ the names of all that is traced."
 
 (defun untrace-rule (&rest names)
   "Trace the rules NAMES no longer; without NAMES, nothing.  Returns the names of what still is."
-  (setf *traced* (and names (set-difference *traced* (mapcar #'string-upcase names)
+  (setf *traced* (and names (set-difference *traced* (mapcar #'name-of names)
                                             :test #'string=))))
 
 (defun untrace-grasp (&rest names)
@@ -110,7 +109,7 @@ rule, CONTINUE to the next break."))
 (defun write-failed-candidate (candidate plan stream)
   (multiple-value-bind (step text) (candidate-failure candidate plan)
     (format stream "  (~a FAILS AT ~a, MATCHING: (~{~a~^ ~})): ~a~%" (candidate-grasp candidate)
-            step (candidate-matching candidate) text)))
+            (symbol-name step) (candidate-matching candidate) text)))
 
 (defun write-additions (events plan level traced stream)
   "Write EVENTS, what an action added to the log, of a rule that is TRACED or not."

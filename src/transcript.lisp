@@ -39,11 +39,11 @@
 
 (defun write-transcript (plan &optional (stream *standard-output*))
   "Write PLAN to STREAM in the lines of the paper's session."
-  (let ((rulebase (knowledge-rulebase (plan-knowledge plan)))
-        (*print-pretty* nil))
-    (dolist (event (plan-log plan))
-      (if (candidate-p event)
-          (write-candidate event stream)
-          (write-event event rulebase stream)))
-    (write-verdict plan stream)
-    (format stream "--END--~%")))
+  (let ((rulebase (knowledge-rulebase (plan-knowledge (need-plan plan)))))
+    (plainly
+      (dolist (event (plan-log plan))
+        (if (candidate-p event)
+            (write-candidate event stream)
+            (write-event event rulebase stream)))
+      (write-verdict plan stream)
+      (format stream "--END--~%"))))

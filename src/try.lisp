@@ -20,10 +20,11 @@
 
 (defmethod print-object ((candidate candidate) stream)
   (print-unreadable-object (candidate stream :type t)
-    (format stream "~a (~{~a~^ ~}) ~:[~a~;Q=~*~,3f~]" (grasp-name (%candidate-grasp candidate))
-            (matching-names (%candidate-matching candidate))
-            (eq (%candidate-outcome candidate) :possible) (%candidate-outcome candidate)
-            (%candidate-quality candidate))))
+    (plainly
+      (format stream "~a (~{~a~^ ~}) ~:[~a~;Q=~*~,3f~]" (grasp-name (%candidate-grasp candidate))
+              (matching-names (%candidate-matching candidate))
+              (eq (%candidate-outcome candidate) :possible) (%candidate-outcome candidate)
+              (%candidate-quality candidate)))))
 
 (defun make-six () (make-array 6 :element-type 'double-float :initial-element 0d0))
 (defun make-three () (make-array 3 :element-type 'double-float :initial-element 0d0))
@@ -45,7 +46,8 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
 
 (defmethod print-object ((attempt attempt) stream)
   (print-unreadable-object (attempt stream :type t)
-    (format stream "~@[at ~a~]" (attempt-box attempt))))
+    (plainly
+      (format stream "~@[at ~a~]" (attempt-box attempt)))))
 
 (defun make-attempt (graspbase)
   "Return an attempt with the grasps of GRASPBASE, at no box yet."

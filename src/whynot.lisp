@@ -8,12 +8,13 @@
   :NO-MATCHING  FACES are no proper rotation
   :CONSTRAINED  CANDIDATES is empty: it would use the constrained FACES
   :EQUIVALENT   the same grasp was tried in the matching of the first of CANDIDATES
-  :NOT-TRIED    no rule tried it: REFUSALS says why each that could did not; CANDIDATES is what
-                would have come of it
+  :NOT-TRIED    no rule tried it: REFUSALS says why each that could did not, MORE how many are left
+                out; CANDIDATES is what would have come of it
   :FAILED       the first of CANDIDATES failed, OUTCOME and TEXT say at what
   :LOWER        the first of CANDIDATES is possible, but MARGIN below the best
 TEXT is a sentence, PLAN the plan."
-  plan kind grasp matching (faces '()) (candidates '()) (refusals '()) outcome (text "") margin)
+  plan kind grasp matching (faces '()) (candidates '()) (refusals '()) (more 0) outcome (text "")
+  margin)
 
 (defun trying-rules (grasp plan)
   "Return the rules of PLAN that may try GRASP."
@@ -21,9 +22,16 @@ TEXT is a sentence, PLAN the plan."
         when (find grasp (rule-actions rule) :key #'action-target)
           collect rule))
 
+(defun six-words (faces)
+  "Return the letters of FACES, six names, strings or symbols, or one string of them; else NIL."
+  (let* ((faces (spelled faces))
+         (words (loop for cell = faces then (cdr cell) ; which may be dotted, or circular
+                      repeat 7 while (consp cell) collect (word-text (car cell)))))
+    (and (= (length words) 6) (null (nthcdr 6 faces)) (notany #'null words) words)))
+
 (defun parse-matching (faces)
-  "Return the matching of FACES, six names, or NIL."
-  (let ((indices (loop for face in faces collect (and (namep face) (surface-index face)))))
+  "Return the matching of FACES, six strings, or NIL."
+  (let ((indices (mapcar #'surface-index faces)))
     (find-if (lambda (matching) (equal indices (coerce (matching-faces matching) 'list)))
              +matchings+)))
 
@@ -90,8 +98,8 @@ TEXT is a sentence, PLAN the plan."
 
 (defun would-be (grasp matching plan)
   "Return the candidates that trying GRASP, in MATCHING or in all, would have given, the best first."
-  (let* ((alone (try-grasp (grasp-name grasp) (plan-box plan) :knowledge (plan-knowledge plan)
-                                                              :gamma (plan-gamma plan)))
+  (let* ((alone (try-alone grasp (plan-box plan) :knowledge (plan-knowledge plan)
+                                                 :gamma (plan-gamma plan)))
          (same (and matching (aref (grasp-same grasp) (matching-index matching)))))
     (remove-if-not (lambda (candidate)
                      (or (null same)
@@ -102,11 +110,12 @@ TEXT is a sentence, PLAN the plan."
   "Return why no rule of PLAN tried GRASP in MATCHING, or at all."
   (let* ((rules (trying-rules grasp plan))
          (candidates (would-be grasp matching plan))
-         (refusals (loop for rule in rules collect (refuse-rule rule plan))))
+         (most (min +most-refusals+ (length rules)))
+         (refusals (loop for rule in (subseq rules 0 most) collect (refuse-rule rule plan))))
     (make-not-chosen
      :plan plan :kind (if candidates :not-tried :constrained) :grasp grasp :matching matching
      :candidates candidates
-     :refusals refusals
+     :refusals refusals :more (- (length rules) most)
      :text (cond ((null candidates) "in every matching it would use a constrained face")
                  ((null rules) "no rule tries it")
                  (matching "no rule tried it in this matching")
@@ -129,22 +138,30 @@ TEXT is a sentence, PLAN the plan."
 faces) if that is given, was not chosen, a NOT-CHOSEN."
   (let* ((plan (need-plan plan))
          (knowledge (plan-knowledge plan))
-         (rule (find-rule (knowledge-rulebase knowledge) name))
-         (grasp (find-grasp (knowledge-graspbase knowledge) name)))
-    (cond ((and rule (null matching)) (refuse-rule rule plan))
-          ((null grasp)
-           (error 'no-rule-error :name name
-                                 :known (known-names knowledge)))
-          ((null matching) (refuse-grasp grasp plan))
-          ((not (and (consp matching) (= (length matching) 6)))
-           (make-not-chosen :kind :no-matching :grasp grasp
-                            :text (format nil "~a is no matching: a matching is six faces, for N1 ~
-                                               N2 O1 O2 A1 A2" (form-text matching))))
-          ((parse-matching matching) (refuse-matching grasp (parse-matching matching) plan))
-          (t (make-not-chosen :kind :no-matching :grasp grasp :faces matching
-                              :text (format nil "(~{~a~^ ~}) is no matching: N O A must be a proper ~
-                                                 rotation of X Y Z, N1 opposite N2, and so on"
-                                            matching))))))
+         (word (name-of name))
+         (rule (and word (find-rule (knowledge-rulebase knowledge) word)))
+         (grasp (and word (find-grasp (knowledge-graspbase knowledge) word))))
+    (plainly
+      (cond ((and rule (null matching)) (refuse-rule rule plan))
+            ((null grasp)
+             (error 'no-rule-error :name name
+                                   :hint (and rule "a rule: only a grasp has a matching")
+                                   :known (known-names knowledge)))
+            ((null matching) (refuse-grasp grasp plan))
+            (t (explain-matching grasp matching plan))))))
+
+(defun explain-matching (grasp faces plan)
+  "Return why GRASP was not chosen with FACES, which should be six, for N1 N2 O1 O2 A1 A2."
+  (let* ((words (six-words faces))
+         (matching (and words (parse-matching words))))
+    (if matching
+        (refuse-matching grasp matching plan)
+        (make-not-chosen :kind :no-matching :grasp grasp :faces words
+                         :text (if words
+                                   (format nil "(~{~a~^ ~}) is no matching: N O A must be a proper ~
+                                                rotation of X Y Z, N1 opposite N2, and so on" words)
+                                   (format nil "~a is no matching: a matching is six faces, for N1 ~
+                                                N2 O1 O2 A1 A2" (form-text faces)))))))
 
 (defun why-not (name &optional matching (plan *plan*))
   "Print and return why the rule NAME did not fire in PLAN, or why the grasp NAME was not chosen, in
@@ -152,17 +169,16 @@ MATCHING, six faces, if that is given.  NAME is a symbol or a string; where it i
 is HOW's.  PLAN may stand in the place of MATCHING."
   (multiple-value-bind (matching plan)
       (if (plan-p matching) (values nil matching) (values matching plan))
-    (if (consp name)
+    (if (or (consp name) (and (stringp name) (find #\( name)))
         (how name plan)
-        (print-answer (explain-refusal (string name) matching plan)))))
+        (print-answer (explain-refusal name matching plan)))))
 
 (defmethod write-answer ((answer not-chosen) stream)
   (format stream "~a~@[ (~{~a~^ ~})~]: ~a.~%" (grasp-name (not-chosen-grasp answer))
           (and (not-chosen-matching answer) (matching-names (not-chosen-matching answer)))
           (not-chosen-text answer))
   (when (eq (not-chosen-kind answer) :not-tried)
-    (dolist (refusal (not-chosen-refusals answer))
-      (write-answer refusal stream))
+    (write-refusals (not-chosen-refusals answer) (not-chosen-more answer) stream)
     (let ((candidates (not-chosen-candidates answer)) (plan (not-chosen-plan answer)))
       (write-would-be (or (find :possible candidates :key #'candidate-outcome)
                           (nearest-of candidates plan))

@@ -13,7 +13,8 @@ its rule base.  GIVEN is true if the input provides it."
 
 (defmethod print-object ((predicate predicate) stream)
   (print-unreadable-object (predicate stream :type t)
-    (format stream "~{~a~^ ~}" (predicate-words predicate))))
+    (plainly
+      (format stream "~{~a~^ ~}" (predicate-words predicate)))))
 
 (defun predicate-text (predicate)
   "Return the words of PREDICATE as one string."
@@ -50,7 +51,8 @@ first.  CLIENT is whatever the actions of the lower level need."
 
 (defmethod print-object ((memory memory) stream)
   (print-unreadable-object (memory stream :type t)
-    (format stream "~d predicate~:p with facts" (memory-used-count memory))))
+    (plainly
+      (format stream "~d predicate~:p with facts" (memory-used-count memory)))))
 
 (declaim (inline fact-bits known-p))
 (defun fact-bits (arity packed)

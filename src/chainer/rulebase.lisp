@@ -26,7 +26,8 @@ variables; the place of one is its number."
 
 (defmethod print-object ((rule rule) stream)
   (print-unreadable-object (rule stream :type t)
-    (format stream "~a" (rule-name rule))))
+    (plainly
+      (format stream "~a" (rule-name rule)))))
 
 (defstruct (rulebase (:constructor %make-rulebase))
   "Ordered rules and the predicates that they speak of.  AWAKE and WAKES are what SET-WATCHES says.
@@ -40,7 +41,8 @@ CLIENT is what the actions of the lower level are compiled against."
 
 (defmethod print-object ((rulebase rulebase) stream)
   (print-unreadable-object (rulebase stream :type t)
-    (format stream "~d rules" (length (rulebase-rules rulebase)))))
+    (plainly
+      (format stream "~d rules" (length (rulebase-rules rulebase))))))
 
 (defun find-rule (rulebase name)
   "Return the rule of RULEBASE that has NAME, or NIL."

@@ -98,7 +98,7 @@ A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL."
   (let* ((severity (if (consp control) (first control) :error))
          (control (if (consp control) (second control) control))
          (parts (list severity *file* (line-of form) *subject* *place*
-                      (apply #'plain-text control arguments))))
+                      (apply #'format nil control arguments))))
     (unless (gethash parts *noted*)
       (setf (gethash parts *noted*) t)
       (destructuring-bind (severity file line subject place text) parts
@@ -114,7 +114,7 @@ unknown, they are no slips of the pen.")
 (defmacro with-problems (&body body)
   "Run BODY; return its value and the list of the problems that it complained of, in order."
   `(let ((*problems* '()) (*noted* (make-hash-table :test #'equal)) (*looks-left* 200000))
-     (let ((value (progn ,@body)))
+     (let ((value (plainly ,@body)))
        (values value (reverse *problems*)))))
 
 (defun warnings-in (problems)
