@@ -40,8 +40,10 @@ is for forms that were read."
                         (write-string text out)
                         (and room (decf room length)))
                        (t (write-string text out :end room)
-                          (write-string "..." out)
-                          (return-from form-text (get-output-stream-string out)))))))
+                          (return-from form-text
+                            (concatenate 'string
+                                         (subseq (get-output-stream-string out) 0 (- most 3))
+                                         "...")))))))
         (plainly (write-form form #'put))))))
 
 (defun write-form (form put)
