@@ -131,6 +131,7 @@
                (:file "fuzzer")
                (:file "batch")
                (:file "main")
+               (:file "documents")
                (:static-file "fuzz.lisp"))
   :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))
 

@@ -158,3 +158,22 @@ TWIST (0.8 0.5 1 0.2 1 1)))"))
       (is (equal printed (session :finger-length 4 :finger-dist 9.262d0)))
       (is (equal printed (session :finger-length 5 :finger-dist 11.9075d0)))
       (is (not (equal printed (session :finger-length 4)))))))
+
+(defun session-of (gripper)
+  "Return the paper's session by a GRIPPER that differs from the shipped one: a list of texts, what
+stands in grasps.lisp and what is to stand there."
+  (let ((grasps (file-text "grasps.lisp")))
+    (loop for (from to) in gripper do (setf grasps (replace-once grasps from to)))
+    (transcript (supergrip:plan (paper-box)
+                                :knowledge (text-knowledge (file-text "rules.lisp") grasps)))))
+
+(test other-grippers-print-the-same-session
+  ;; docs/reconstruction.md: the session binds FINGER-LENGTH and FINGER-DIST only jointly.
+  (let ((session (file-text "t/pencil-session.txt")))
+    (loop for (length distance pinch) in '(("3.0" "4.705" "10.5") ("4.0" "9.262" "12")
+                                           ("5.0" "11.9077" "12"))
+          do (is (equal session (session-of `(("FINGER-LENGTH 3.2" ,(format nil "FINGER-LENGTH ~a" length))
+                                              ("FINGER-DIST   6.05" ,(format nil "FINGER-DIST ~a" distance))
+                                              ("DIST-PINCH    12" ,(format nil "DIST-PINCH ~a" pinch)))))
+                 "FINGER-LENGTH ~a" length))
+    (is (not (equal session (session-of '(("FINGER-LENGTH 3.2" "FINGER-LENGTH 3.201"))))))))
