@@ -958,8 +958,8 @@ class Soak:
         result = run(self.command([*options, "--input", "sexp", "--format", "json", path]))
         records = records_of(result.out, "json")
         if result.status != 0 or len(records) != len(case.boxes) or result.err:
-            raise Failure(f"the clean boxes: status {result.status}, {len(records)} of {len(case.boxes)} "
-                          f"records, {result.err[:200]}")
+            raise Failure(f"the clean boxes: status {result.status}, {len(records)} of "
+                          f"{len(case.boxes)} records, {result.err[:200]}")
         return records
 
     def check_end(self, result, statuses, silent=False, cost=None):
@@ -975,9 +975,8 @@ class Soak:
             raise Failure(f"{result.cpu:.1f} s of the processor; {self.start + cost:.1f} would do")
 
 
-ODD_NAMES = ["a[1]", "b*", "c?.x", "d\\e", "f g", "--h", "i'j\"", "é軸", "k;l", "~", "#m#", "n.fasl",
-             "-", ".hid", "%a~a",
-             "p{q}", "r:s", "{", "*.*", "t\u00a0u"]
+ODD_NAMES = ["a[1]", "b*", "c?.x", "d\\e", "f g", "--h", "i'j\"", "é軸", "k;l", "~", "#m#", "n.fasl", "-",
+             ".hid", "%a~a", "p{q}", "r:s", "{", "*.*", "t\u00a0u"]
 
 
 def odd_path(soak, rng, name, data):
@@ -1330,49 +1329,50 @@ def check_knowledge(soak, rng, which, data, line=None, statuses=(0, 65), cost=1.
     return result
 
 
+TOKENS = ["#", "1e999", "\x00", "é", "9" * 41, "1/0", "(" * 40, "'" * 40, "\udcff", "\x9b", "|a|", ",",
+          "\u00a0", "x" * 65, '"\\n"']
+CHANGES = [b"(", b")", b"'", b'"', b";", b"#", b"\x00", b"\xff", b"9", b"S1", b"?", b" ", b""]
+
+
 def knowledge(soak, rng):
     """Shipped rules and grasps, spoiled in one place or at random."""
     which = rng.choice(["rules", "grasps"])
-    text = (ROOT / f"{which}.lisp").read_text()
-    lines = text.split("\n")
-    inside = [count for count,
-              line in enumerate(lines) if line.startswith(" ") and not line.strip().startswith(";")]
-    place = rng.choice(inside)
+    lines = (ROOT / f"{which}.lisp").read_text(encoding="utf-8").split("\n")
     kind = rng.choice(["whole", "token", "token", "word", "unclosed", "closed", "cut", "mutated",
                        "mutated"])
-    line, statuses = None, (65,)
-    if kind == "whole":
-        statuses, lines[place] = (0,), lines[place] + rng.choice(["", "\r", " ;\x1b"])
-    elif kind == "token":
-        lines[place] = rng.choice(["#", "1e999", "\x00", "é", "9" * 41, "1/0", "(" * 40, "'" * 40,
-                                   "\udcff", "\x9b", "|a|", ",",
-                                   "\u00a0", "x" * 65, '"\\n"']) + " " + lines[place]
-        line = place + 1
-    elif kind == "word":
-        old = r"\(TRY PINCH" if which == "rules" else r"\((POSIT|SQRT|MIN|MAX)\b"
-        place = rng.choice([count for count in inside if re.search(old, lines[count])])
-        lines[place] = re.sub(old, "(TRY PUNCH" if which == "rules" else "(FROB", lines[place],
-                              count=1)
-        line = place + 1
-    elif kind == "unclosed":
-        place = rng.choice([count for count in inside if lines[count].endswith("))")])
-        lines[place] = lines[place][:-1]
-    elif kind == "closed":
-        place = rng.choice([count for count in inside if lines[count].endswith(")")])
-        lines[place] += ")" * rng.choice([1, 2, 70000])
+    place = spoil_line(rng, lines, which, kind)
     data = octets("\n".join(lines))
     if kind == "cut":
-        data, statuses = data[:rng.randrange(len(data))], (0, 65)
+        data = data[:rng.randrange(len(data))]
     elif kind == "mutated":
-        data, statuses = bytearray(data), (0, 65)
+        data = bytearray(data)
         for _ in range(rng.choice([1, 3, 20, 200])):
             spot = rng.randrange(len(data))
-            data[spot:spot + rng.choice([0, 1, 1, 5])] = rng.choice([b"(", b")", b"'", b'"', b";",
-                                                                     b"#", b"\x00", b"\xff", b"9",
-                                                                    b"S1", b"?", b" ", b"",
-                                                                     bytes([rng.randrange(256)])])
-    check_knowledge(soak, rng, which, bytes(data), line, statuses)
+            data[spot:spot + rng.choice([0, 1, 1, 5])] = rng.choice(
+                CHANGES + [bytes([rng.randrange(256)])])
+    statuses = (0,) if kind == "whole" else (0, 65) if kind in ("cut", "mutated") else (65,)
+    check_knowledge(soak, rng, which, bytes(data),
+                    place + 1 if kind in ("token", "word") else None, statuses)
     return 0
+
+
+def spoil_line(rng, lines, which, kind):
+    """Spoil one of LINES as KIND says, and return its place."""
+    old = {"word": r"\(TRY PINCH" if which == "rules" else r"\((POSIT|SQRT|MIN|MAX)\b",
+           "unclosed": r"\)\)$", "closed": r"\)$"}.get(kind, "")
+    place = rng.choice([place for place, line in enumerate(lines)
+                        if re.match(" +[^ ;]", line) and re.search(old, line)])
+    if kind == "whole":
+        lines[place] += rng.choice(["", "\r", " ;\x1b"])
+    elif kind == "token":
+        lines[place] = rng.choice(TOKENS) + " " + lines[place]
+    elif kind == "word":
+        lines[place] = re.sub(old, "(TRY PUNCH" if which == "rules" else "(FROB", lines[place], 1)
+    elif kind == "unclosed":
+        lines[place] = lines[place][:-1]
+    elif kind == "closed":
+        lines[place] += ")" * rng.choice([1, 2, 70000])
+    return place
 
 
 GROWING = {
