@@ -1165,6 +1165,8 @@ def signals(soak, rng):
     case, stream = plain(soak, rng, rng.choice([0, 1, 50, 1500]))
     number = rng.choice([signal.SIGTERM, signal.SIGINT])
     moment = rng.choice([0, rng.uniform(0, 0.004), rng.uniform(0, 0.03), rng.uniform(0, 0.3)])
+    if soak.program.endswith(".lisp"):
+        moment += soak.start / 2        # until then it is SBCL's own
     arguments, pieces, hold = ["--format", "json"], None, False
     way = rng.choice(["idle", "idle", "pieces", "fifo", "rules", "rules and boxes"])
     if way in ("fifo", "rules"):
