@@ -238,31 +238,3 @@ Signals a BOX-ERROR that holds all that is wrong with it."
                :constrained (getf values :constrained)
                :force (getf values :force-needed) :velocity (getf values :velocity-needed)
                :line line)))
-
-;;; Preliminary assertions
-
-(defparameter +inputs+
-  '((("OPPOSED") 2) (("SMALL") 2) (("NARROW") 2) (("LARGE") 2) (("CONSTRAINED") 1)
-    (("SLIPPERY") 0))
-  "The predicates that the preliminary assertions use, in their order in a rule base.")
-
-(defun assert-box (memory predicates box finger-width finger-spread dist-pinch slippery-u)
-  "Put into MEMORY what is known of BOX before any rule runs.
-A pair of opposed faces is SMALL if it is closer than FINGER-WIDTH, NARROW if closer than
-FINGER-SPREAD, LARGE if DIST-PINCH apart or farther (cm); the box is SLIPPERY if its friction is
-SLIPPERY-U or less."
-  (declare (simple-vector predicates)
-           (double-float finger-width finger-spread dist-pinch slippery-u))
-  (loop for face of-type fixnum in '(0 2 4)
-        for pair in (load-time-value (list (pack '(0 1)) (pack '(2 3)) (pack '(4 5))))
-        for distance = (aref (%box-size box) (surface-axis face))
-        do (remember memory (svref predicates 0) pair)
-           (when (< distance finger-width) (remember memory (svref predicates 1) pair))
-           (when (< distance finger-spread) (remember memory (svref predicates 2) pair))
-           (when (>= distance dist-pinch) (remember memory (svref predicates 3) pair)))
-  (loop for face below 6
-        for single in (load-time-value (loop for face below 6 collect (pack (list face))))
-        when (logbitp face (%box-constrained box))
-          do (remember memory (svref predicates 4) single))
-  (when (<= (%box-u box) slippery-u)
-    (remember memory (svref predicates 5) 0)))

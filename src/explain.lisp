@@ -94,25 +94,13 @@ input, where it comes from."
            (plan-log plan)))
 
 (defun input-note (predicate packed plan)
-  "Return where the input fact of PREDICATE and PACKED in PLAN comes from."
-  (let* ((knowledge (plan-knowledge plan))
-         (box (plan-box plan))
-         (word (first (predicate-words predicate)))
-         (size (and (plusp (pack-count packed))
-                    (aref (%box-size box) (surface-axis (first (pack-elements packed)))))))
-    (flet ((apart (relation name limit)
-             (format nil "they are ~a cm apart, ~a ~a, ~a" (figure size) relation name
-                     (figure limit))))
-      (cond ((string= word "OPPOSED") "opposite faces of the box")
-            ((string= word "CONSTRAINED") "the box says so")
-            ((string= word "SMALL") (apart "less than" "FINGER-WIDTH" (knowledge-finger-width knowledge)))
-            ((string= word "NARROW")
-             (apart "less than" "FINGER-SPREAD" (knowledge-finger-spread knowledge)))
-            ((string= word "LARGE") (apart "no less than" "DIST-PINCH" (knowledge-dist-pinch knowledge)))
-            ((string= word "SLIPPERY")
-             (format nil "u is ~a, no more than SLIPPERY-U, ~a" (figure (%box-u box))
-                     (figure (knowledge-slippery-u knowledge))))
-            (t "an input")))))
+  "Return why the preliminary assertion PREDICATE of PACKED holds in PLAN."
+  (let ((input (find predicate (knowledge-inputs (plan-knowledge plan))
+                     :key #'prepared-input-predicate)))
+    (if input
+        (funcall (input-row-note (prepared-input-row input))
+                 packed (plan-box plan) (prepared-input-threshold input))
+        "an input")))
 
 ;;; A fact follows only from what was known before it, so the derivations of a whole log are made in its
 ;;; order, each from those before: however long a chain is, nothing nests.

@@ -4,16 +4,13 @@
 
 (defstruct (knowledge (:constructor %make-knowledge))
   "Rules and grasps, ready for use; immutable, but for SPARE, scratch space that plans give back (see
-START-PLAN).  RULE-FILE and GRASP-FILE are what they were made of, WARNINGS the PROBLEMs that did not
+START-PLAN).  INPUTS are the preliminary assertions, prepared.  RULE-FILE and GRASP-FILE are what they were made of, WARNINGS the PROBLEMs that did not
 prevent it."
   (rule-file nil) (grasp-file nil)
   (rulebase nil :type rulebase)
   (graspbase nil :type graspbase)
   (predicates #() :type simple-vector)
-  (finger-width 0d0 :type double-float)
-  (finger-spread 0d0 :type double-float)
-  (dist-pinch 0d0 :type double-float)
-  (slippery-u 0d0 :type double-float)
+  (inputs '() :type list)
   (warnings '() :type list)
   (spare '() :type list))
 
@@ -42,13 +39,11 @@ a table from form to line, COMMENTS, one from form to comment, and the PROBLEMS 
   (path nil) (name nil) (forms '() :type list) (lines nil) (comments nil) (problems '() :type list))
 
 (defun assemble (rulebase graspbase rule-file grasp-file problems)
-  (flet ((size (name) (or (dimension graspbase name) 0d0)))
-    (%make-knowledge :rulebase rulebase :graspbase graspbase
-                     :rule-file rule-file :grasp-file grasp-file
-                     :predicates (rulebase-predicates rulebase)
-                     :finger-width (size "FINGER-WIDTH") :finger-spread (size "FINGER-SPREAD")
-                     :dist-pinch (size "DIST-PINCH") :slippery-u (size "SLIPPERY-U")
-                     :warnings (warnings-in problems))))
+  (%make-knowledge :rulebase rulebase :graspbase graspbase
+                   :rule-file rule-file :grasp-file grasp-file
+                   :predicates (rulebase-predicates rulebase)
+                   :inputs (prepare-inputs rulebase graspbase)
+                   :warnings (warnings-in problems)))
 
 (defmacro with-data-file ((file) &body body)
   "Run BODY with what it complains of placed in the data file FILE."
@@ -64,7 +59,7 @@ What is wrong is left out."
         (let* ((graspbase (with-data-file (grasp-file)
                             (build-graspbase (data-file-forms grasp-file))))
                (rulebase (with-data-file (rule-file)
-                           (build-rulebase (data-file-forms rule-file) +inputs+
+                           (build-rulebase (data-file-forms rule-file) (input-predicates)
                                            :client graspbase))))
           (check-knowledge graspbase rulebase rule-file grasp-file)
           (cons rulebase graspbase)))
@@ -80,7 +75,7 @@ What is wrong is left out."
   (with-data-file (rule-file)
     (when (null (data-file-forms rule-file))
       (complain nil "there is no rule"))
-    (check-rules (data-file-forms rule-file) +inputs+))
+    (check-rules (data-file-forms rule-file) (input-predicates)))
   ;; Where a rule was left out, that nothing tries a grasp is no news.
   (when (= (length (rulebase-rules rulebase)) (length (data-file-forms rule-file)))
     (with-data-file (grasp-file)

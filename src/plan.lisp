@@ -90,9 +90,7 @@ use no constrained face, equivalent ones once.  Other arguments as for PLAN."
   "Make MEMORY, an empty one, ready for a plan for BOX: it holds the preliminary assertions, and its
 attempt has tried nothing yet.  Return it."
   (start-attempt (memory-client memory) box gamma)
-  (assert-box memory (knowledge-predicates knowledge) box
-              (knowledge-finger-width knowledge) (knowledge-finger-spread knowledge)
-              (knowledge-dist-pinch knowledge) (knowledge-slippery-u knowledge))
+  (assert-box memory (knowledge-inputs knowledge) box)
   memory)
 
 (defun start-plan (box knowledge gamma)

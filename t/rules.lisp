@@ -61,7 +61,7 @@
          (rulebase (supergrip-data:with-problems
                      (supergrip-chainer:build-rulebase
                       (list (shipped-form "rules.lisp" "RULE" name))
-                      supergrip::+inputs+ :client graspbase)))
+                      (supergrip::input-predicates) :client graspbase)))
          (memory (supergrip-chainer:make-memory
                   rulebase
                   (supergrip::start-attempt (supergrip::make-attempt graspbase)

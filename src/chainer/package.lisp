@@ -8,7 +8,7 @@ one generic function.")
   (:export
    ;; surfaces
    #:+surfaces+ #:surface #:surface-index #:surface-name #:opposite #:surface-axis #:surface-sign
-   #:pack #:pack-mask #:pack-count #:pack-elements #:pack-names
+   #:packed #:pack #:pack-mask #:pack-ref #:pack-count #:pack-elements #:pack-names
    ;; predicates and working memory
    #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
    #:predicate-given

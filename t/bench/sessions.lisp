@@ -32,7 +32,7 @@
 
 (defun rules-alone (forms)
   "Return the rule base of the rule FORMS without TRY."
-  (supergrip-chainer:build-rulebase (mapcar #'without-try forms) supergrip::+inputs+))
+  (supergrip-chainer:build-rulebase (mapcar #'without-try forms) (supergrip::input-predicates)))
 
 (defun shipped-rules ()
   (supergrip::data-file-forms (supergrip::read-data-file (project-file "rules.lisp"))))
@@ -40,16 +40,12 @@
 (defun rules-function (rulebase)
   "Return a function of a box that runs RULEBASE on it as PLAN does, in a memory that is used again,
 and returns the verdict and the log, the newest event first."
-  (let* ((knowledge supergrip:*knowledge*)
-         (predicates (supergrip-chainer:rulebase-predicates rulebase))
-         (memory (supergrip-chainer:make-memory rulebase)))
+  (let ((inputs (supergrip::prepare-inputs
+                 rulebase (supergrip::knowledge-graspbase supergrip:*knowledge*)))
+        (memory (supergrip-chainer:make-memory rulebase)))
     (lambda (box)
       (supergrip-chainer:clear-memory memory rulebase)
-      (supergrip::assert-box memory predicates box
-                             (supergrip::knowledge-finger-width knowledge)
-                             (supergrip::knowledge-finger-spread knowledge)
-                             (supergrip::knowledge-dist-pinch knowledge)
-                             (supergrip::knowledge-slippery-u knowledge))
+      (supergrip::assert-box memory inputs box)
       (let ((stop (supergrip-chainer:run-rules rulebase memory)))
         (values (and stop (supergrip-chainer:stop-verdict stop))
                 (supergrip-chainer:memory-log memory))))))

@@ -1,0 +1,122 @@
+;;;; inputs.lisp -- the preliminary assertions: what is known of a box before any rule runs.
+;;;;
+;;;; One row each.  The rule base, the checker, HOW and WHY-NOT follow from the rows.
+
+(in-package :supergrip)
+
+(defstruct (input-row (:constructor make-input-row (name arity dimension assert note)))
+  "A preliminary assertion: its NAME, a string; how many faces its lists have, ARITY; the name of the
+gripper's DIMENSION that is its threshold, or NIL; ASSERT, a function of a memory, the predicate, a
+box and the threshold that remembers all that holds; NOTE, one of a packed list, a box and the
+threshold that returns why that holds, a sentence."
+  name arity dimension assert note)
+
+(defvar *inputs* '() "The rows that DEFINE-INPUT has defined, in the order of their definition.")
+
+(defun add-input (row)
+  "Put ROW into the place of the one of its name, or last."
+  (let ((old (find (input-row-name row) *inputs* :key #'input-row-name :test #'string=)))
+    (setf *inputs* (if old (substitute row old *inputs*) (append *inputs* (list row))))))
+
+(defun input-predicates ()
+  "Return the predicates of all preliminary assertions, as BUILD-RULEBASE wants them."
+  (loop for row in *inputs*
+        collect (list (list (input-row-name row)) (input-row-arity row))))
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defun input-places (kind)
+    "Return the packed lists to which an input of KIND applies."
+    (ecase kind
+      (:pair (list (pack '(0 1)) (pack '(2 3)) (pack '(4 5))))
+      (:face (loop for face below 6 collect (pack (list face))))
+      (:box '(0))))
+
+  (defun input-bindings (kind variables packed)
+    "Return the bindings, for LET, of VARIABLES, those of an input of KIND at the place PACKED."
+    (loop for variable in variables
+          for value in (ecase kind
+                         (:pair `((aref (%box-size box) (surface-axis (pack-ref ,packed 0))) box))
+                         (:face `((pack-ref ,packed 0) box))
+                         (:box '(box)))
+          collect (list variable value))))
+
+(defmacro define-input (name (kind &rest variables) (&optional (threshold (gensym)) dimension)
+                        test phrase)
+  "Define the preliminary assertion NAME, a string.  KIND says what it is about, and what VARIABLES
+stand for in TEST and PHRASE; those at the end may be left out:
+  (:PAIR distance box)  each of the three pairs of opposed faces, DISTANCE apart, in cm
+  (:FACE face box)      each of the six faces
+  (:BOX box)            the box itself.
+THRESHOLD stands for the gripper's DIMENSION, a string, if there is one.  TEST is a form, true where
+the assertion holds; PHRASE a form that returns why, a string.  Knowledge that is loaded from then on
+has the assertion."
+  `(add-input
+    (make-input-row
+     ,name ,(ecase kind (:pair 2) (:face 1) (:box 0)) ,dimension
+     (lambda (memory predicate box ,threshold)
+       (declare (type memory memory) (type predicate predicate) (type box box)
+                (double-float ,threshold) (ignorable ,threshold))
+       (dolist (packed ',(input-places kind))
+         (declare (type packed packed) (ignorable packed))
+         (let ,(input-bindings kind variables 'packed)
+           (declare (ignorable ,@variables))
+           (when ,test (remember memory predicate packed)))))
+     (lambda (packed box ,threshold)
+       (declare (type packed packed) (ignorable packed box ,threshold))
+       (let ,(input-bindings kind variables 'packed)
+         (declare (ignorable ,@variables))
+         ,phrase)))))
+
+(defun apart-text (distance relation dimension threshold)
+  "Return that two faces are DISTANCE apart, which stands in RELATION to the DIMENSION, THRESHOLD."
+  (format nil "they are ~a cm apart, ~a ~a, ~a" (figure distance) relation dimension
+          (figure threshold)))
+
+;;; Their order is that of the predicates in a rule base.
+
+(define-input "OPPOSED" (:pair) ()
+  t
+  "opposite faces of the box")
+
+(define-input "SMALL" (:pair distance) (width "FINGER-WIDTH")
+  (< distance width)
+  (apart-text distance "less than" "FINGER-WIDTH" width))
+
+(define-input "NARROW" (:pair distance) (spread "FINGER-SPREAD")
+  (< distance spread)
+  (apart-text distance "less than" "FINGER-SPREAD" spread))
+
+(define-input "LARGE" (:pair distance) (opening "DIST-PINCH")
+  (>= distance opening)
+  (apart-text distance "no less than" "DIST-PINCH" opening))
+
+(define-input "CONSTRAINED" (:face face box) ()
+  (logbitp face (%box-constrained box))
+  "the box says so")
+
+(define-input "SLIPPERY" (:box box) (friction "SLIPPERY-U")
+  (<= (%box-u box) friction)
+  (format nil "u is ~a, no more than SLIPPERY-U, ~a" (figure (%box-u box)) (figure friction)))
+
+;;; Ready for a gripper
+
+(defstruct (prepared-input (:constructor make-prepared-input (row predicate threshold)))
+  "The ROW of a preliminary assertion with its PREDICATE in a rule base and the THRESHOLD that a
+gripper gives, 0 if none."
+  (row nil :type input-row)
+  (predicate nil :type predicate)
+  (threshold 0d0 :type double-float))
+
+(defun prepare-inputs (rulebase graspbase)
+  "Return the preliminary assertions, ready for the rules of RULEBASE and the gripper of GRASPBASE."
+  (loop for row in *inputs*
+        for name = (input-row-dimension row)
+        collect (make-prepared-input row (find-predicate rulebase (list (input-row-name row)))
+                                     (or (and name (dimension graspbase name)) 0d0))))
+
+(defun assert-box (memory inputs box)
+  "Put into MEMORY what INPUTS, prepared, say of BOX."
+  (dolist (input inputs)
+    (declare (type prepared-input input))
+    (funcall (the function (input-row-assert (prepared-input-row input)))
+             memory (prepared-input-predicate input) box (prepared-input-threshold input))))
