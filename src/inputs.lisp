@@ -23,23 +23,6 @@ threshold that returns why that holds, a sentence."
   (loop for row in *inputs*
         collect (list (list (input-row-name row)) (input-row-arity row))))
 
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (defun input-places (kind)
-    "Return the packed lists to which an input of KIND applies."
-    (ecase kind
-      (:pair (list (pack '(0 1)) (pack '(2 3)) (pack '(4 5))))
-      (:face (loop for face below 6 collect (pack (list face))))
-      (:box '(0))))
-
-  (defun input-bindings (kind variables packed)
-    "Return the bindings, for LET, of VARIABLES, those of an input of KIND at the place PACKED."
-    (loop for variable in variables
-          for value in (ecase kind
-                         (:pair `((aref (%box-size box) (surface-axis (pack-ref ,packed 0))) box))
-                         (:face `((pack-ref ,packed 0) box))
-                         (:box '(box)))
-          collect (list variable value))))
-
 (defmacro define-input (name (kind &rest variables) (&optional (threshold (gensym)) dimension)
                         test phrase)
   "Define the preliminary assertion NAME, a string.  KIND says what it is about, and what VARIABLES
@@ -50,22 +33,32 @@ stand for in TEST and PHRASE; those at the end may be left out:
 THRESHOLD stands for the gripper's DIMENSION, a string, if there is one.  TEST is a form, true where
 the assertion holds; PHRASE a form that returns why, a string.  Knowledge that is loaded from then on
 has the assertion."
-  `(add-input
-    (make-input-row
-     ,name ,(ecase kind (:pair 2) (:face 1) (:box 0)) ,dimension
-     (lambda (memory predicate box ,threshold)
-       (declare (type memory memory) (type predicate predicate) (type box box)
-                (double-float ,threshold) (ignorable ,threshold))
-       (dolist (packed ',(input-places kind))
-         (declare (type packed packed) (ignorable packed))
-         (let ,(input-bindings kind variables 'packed)
+  (let* ((places (ecase kind
+                   (:pair (list (pack '(0 1)) (pack '(2 3)) (pack '(4 5))))
+                   (:face (loop for face below 6 collect (pack (list face))))
+                   (:box '(0))))
+         (values (ecase kind
+                   (:pair '((aref (%box-size box) (surface-axis (pack-ref packed 0))) box))
+                   (:face '((pack-ref packed 0) box))
+                   (:box '(box))))
+         (bindings (loop for variable in variables for value in values
+                         collect (list variable value))))
+    `(add-input
+      (make-input-row
+       ,name ,(ecase kind (:pair 2) (:face 1) (:box 0)) ,dimension
+       (lambda (memory predicate box ,threshold)
+         (declare (type memory memory) (type predicate predicate) (type box box)
+                  (double-float ,threshold) (ignorable box ,threshold))
+         (dolist (packed ',places)
+           (declare (type packed packed) (ignorable packed))
+           (let ,bindings
+             (declare (ignorable ,@variables))
+             (when ,test (remember memory predicate packed)))))
+       (lambda (packed box ,threshold)
+         (declare (type packed packed) (ignorable packed box ,threshold))
+         (let ,bindings
            (declare (ignorable ,@variables))
-           (when ,test (remember memory predicate packed)))))
-     (lambda (packed box ,threshold)
-       (declare (type packed packed) (ignorable packed box ,threshold))
-       (let ,(input-bindings kind variables 'packed)
-         (declare (ignorable ,@variables))
-         ,phrase)))))
+           ,phrase))))))
 
 (defun apart-text (distance relation dimension threshold)
   "Return that two faces are DISTANCE apart, which stands in RELATION to the DIMENSION, THRESHOLD."
