@@ -10,6 +10,7 @@
   :serial t
   :components ((:file "package")
                (:file "sbcl")
+               (:file "figures")
                (:file "frames")
                (:file "box")
                (:file "machine")

@@ -9,8 +9,8 @@ the effect of the offset, and the RADIUS."
 
 (defstruct change
   "A single value of the box that changes the choice: WHAT it is, FROM and TO, and the PLAN that
-results.  BOX is the changed box."
-  what from to box plan)
+results.  BOX is the changed box; SIZE is how far from FROM the choice changes, not rounded."
+  what from to box plan size)
 
 (defstruct (advice (:include explanation))
   "Why the best grasp of PLAN is the best.  SENTENCE says how it holds the box; FORCE and VELOCITY are
@@ -114,41 +114,61 @@ slot, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
          (step (/ most 50)))
     (labels ((other-p (value)
                (let ((new (box-with box key index value)))
-                 (and (needs-something-p new)
+                 (and (<= 0 value most)
+                      (needs-something-p new)
                       (not (same-choice-p plan (plan-like plan new))))))
-             (edge (same other)
-               (loop repeat 40
-                     do (let ((middle (/ (+ same other) 2)))
-                          (if (other-p middle) (setf other middle) (setf same middle))))
-               (rounded other same))
-             (rounded (other same)
-               ;; The nearest short decimal on the far side, if it does.
-               (loop for digits from 2 to 6
-                     for unit = (expt 10d0 digits)
-                     for value = (/ (if (> other same) (fceiling (* other unit)) (ffloor (* other unit)))
-                                    unit)
-                     when (and (<= 0 value most) (other-p value))
-                       return value
-                     finally (return other)))
-             (change (value)
-               (let ((new (box-with box key index value)))
-                 (make-change :what (value-name key index) :from from :to value :box new
-                              :plan (plan-like plan new)))))
+             (change (same other)
+               (multiple-value-bind (same other) (halve same other #'other-p)
+                 (let* ((to (if (at-once-p from other)
+                                (loop for value = 0.01d0 then (/ value 10)
+                                      when (other-p value) return value)
+                                (short-decimal-beyond same other from #'other-p)))
+                        (new (box-with box key index to)))
+                   (make-change :what (value-name key index) :from from :to to :box new
+                                :plan (plan-like plan new) :size (abs (- other from)))))))
       (loop for k from 1 to 50
             for up = (min most (+ from (* k step)))
             for down = (max 0d0 (- from (* k step)))
             do (when (and (> up from) (other-p up))
-                 (return (change (edge (max from (- up step)) up))))
+                 (return (change (max from (- up step)) up)))
                (when (and (< down from) (other-p down))
-                 (return (change (edge (min from (+ down step)) down))))))))
+                 (return (change (min from (+ down step)) down)))))))
+
+(defun at-once-p (from to)
+  "True if a value that is 0, FROM, changes the choice as soon as it is more: at TO."
+  (and (zerop from) (< to 1d-12)))
+
+(defun halve (same other other-p)
+  "Return two numbers between SAME and OTHER, as near to each other as may be, of which OTHER-P is
+false and true, as of SAME and OTHER."
+  (loop repeat 100
+        for middle = (/ (+ same other) 2)
+        until (or (= middle same) (= middle other))
+        do (if (funcall other-p middle) (setf other middle) (setf same middle)))
+  (values same other))
+
+(defun short-decimal-beyond (same other from other-p)
+  "Return the shortest decimal, from three digits on, that is beyond OTHER as seen from FROM, of which
+OTHER-P is true, and false of the next one of as many digits towards FROM.  SAME is just before."
+  (let* ((direction (if (> other same) 1 -1))
+         (exponent (decimal-exponent (rational (max same other)))))
+    (loop for digits from 3 to 17
+          for unit = (expt 10 (- exponent digits -1))
+          for value = (* unit direction (ceiling (* direction (rational other)) unit))
+          for next = (- value (* direction unit))
+          when (and (<= unit (* direction (- value (rational from))))
+                    (funcall other-p (coerce value 'double-float))
+                    (not (funcall other-p (coerce next 'double-float))))
+            return (coerce value 'double-float)
+          finally (return other))))
 
 (defun find-changes (plan)
   "Return the CHANGEs of single values that change the choice of PLAN, the smallest first."
-  (sort (loop for (key count) in '((:force 6) (:velocity 6) (:u 1) (:v 1) (:weight 1))
-              append (loop for index below count
-                           for change = (find-change plan key index)
-                           when change collect change))
-        #'< :key (lambda (change) (abs (- (change-to change) (change-from change))))))
+  (stable-sort (loop for (key count) in '((:force 6) (:velocity 6) (:u 1) (:v 1) (:weight 1))
+                     append (loop for index below count
+                                  for change = (find-change plan key index)
+                                  when change collect change))
+               #'< :key #'change-size))
 
 ;;; The answer
 
@@ -178,6 +198,7 @@ choice to change."
   (format stream "~a.~%" (advice-sentence answer))
   (write-limit "Force" "exerts" "beyond the weight's load" (advice-force answer) stream)
   (write-limit "Velocity" "moves with" nil (advice-velocity answer) stream)
+  (write-meaning answer stream)
   (when (advice-runner-up answer)
     (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, tried later~;Q ~a less~].~%"
             (candidate-grasp (advice-runner-up answer))
@@ -189,20 +210,33 @@ choice to change."
 
 (defun write-limit (kind verb beyond limit stream)
   (when limit
-    (format stream "~a is limited ~a: the grasp ~a ~a~@[ ~a~], the task needs ~a; radius ~a.~%" kind
-            (limit-axis limit) verb (figure (limit-has limit)) beyond
-            (figure (limit-needs limit)) (figure (limit-radius limit)))))
+    (destructuring-bind (has needs radius one)
+        (figures (limit-has limit) (limit-needs limit) (limit-radius limit) 1)
+      (declare (ignore one))
+      (format stream "~a is limited ~a: the grasp ~a ~a~@[ ~a~], the task needs ~a; radius ~a.~%" kind
+              (limit-axis limit) verb has beyond needs radius))))
+
+(defun write-meaning (answer stream)
+  "Write what a radius below 1, and Q, mean."
+  (loop for limit in (list (advice-force answer) (advice-velocity answer))
+        for kind in '("force" "velocity")
+        when (and limit (< (limit-radius limit) (- 1 +tie+)))
+          do (format stream "The grasp gives only ~a of the ~a asked for, which is enough if the needs ~
+                             only say what matters more.~%"
+                     (first (figures (limit-radius limit) 1)) kind))
+  (let ((best (plan-best (advice-plan answer))))
+    (when best
+      (format stream "Q, ~a, compares grasps for one task: it is no chance of success.~%"
+              (three-decimals (candidate-quality best))))))
 
 (defun write-changes (changes stream)
   (format stream "The choice would change if one of these were different:~%")
   (loop for change in (subseq changes 0 (min 5 (length changes)))
         do (format stream "  ~a: ~a, not ~a; then ~a~%" (change-what change)
-                   (figure-exact (change-to change)) (figure-exact (change-from change))
-                   (choice-text (change-plan change)))))
-
-(defun figure-exact (number)
-  "Return NUMBER in full, without zeros at its end."
-  (string-right-trim "." (string-right-trim "0" (form-text number))))
+                   (if (at-once-p (change-from change) (change-size change))
+                       "anything above 0"
+                       (figure-exact (change-to change)))
+                   (figure-exact (change-from change)) (choice-text (change-plan change)))))
 
 (defun choice-text (plan)
   (if (plan-best plan)

@@ -161,14 +161,23 @@ and return a list of DIFFERENCEs, in the order of BOXES."
                 (count :quality differences :key #'difference-what))))
     differences))
 
+(defun quality-texts (old new)
+  "Return the qualities OLD and NEW, NIL for none, with three decimals, or more if that shows no
+difference."
+  (let ((texts (loop for quality in (list old new)
+                     collect (and quality (three-decimals quality)))))
+    (if (and old new (/= old new) (string= (first texts) (second texts)))
+        (figures old new)
+        texts)))
+
 (defun write-difference (difference stream)
-  (flet ((text (plan)
-           (if (plan-best plan)
-               (format nil "~a Q=~a" (choice-text plan) (three-decimals (plan-quality plan)))
-               "can't")))
-    (plainly
-      (format stream "~a: ~a, was ~a~%"
-              (or (box-name (difference-box difference))
-                  (format nil "~{~a~^ x ~} cm"
-                          (mapcar #'figure (box-size (difference-box difference)))))
-              (text (difference-new difference)) (text (difference-old difference))))))
+  (let ((old (difference-old difference)) (new (difference-new difference)))
+    (destructuring-bind (old-quality new-quality)
+        (quality-texts (plan-quality old) (plan-quality new))
+      (plainly
+        (format stream "~a: ~:[can't~*~;~:*~a Q=~a~], was ~:[can't~*~;~:*~a Q=~a~]~%"
+                (or (box-name (difference-box difference))
+                    (format nil "~{~a~^ x ~} cm"
+                            (mapcar #'figure (box-size (difference-box difference)))))
+                (and new-quality (choice-text new)) new-quality
+                (and old-quality (choice-text old)) old-quality)))))

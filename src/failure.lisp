@@ -2,14 +2,6 @@
 
 (in-package :supergrip)
 
-(defun figure (number)
-  "Return NUMBER for a report: four significant digits at most."
-  (if (or (< (abs number) 1d-9) (<= 1d-3 (abs number) 1d6))
-      (let* ((digits (max 0 (- 3 (floor (log (max (abs number) 1d-3) 10)))))
-             (text (format nil "~,vf" digits number)))
-        (string-right-trim "." (string-right-trim "0" text)))
-      (format nil "~,3,,,,,'ee" number)))
-
 ;;; Conditions
 
 (defun test-holds-p (node registers)

@@ -40,18 +40,18 @@ wrong."
 (defun check-gripper (dimensions form)
   "Complain of DIMENSIONS that contradict each other."
   (flet ((size (name) (cdr (assoc name dimensions :test #'string=)))
-         (text (number) (figure number)))
+         (compare (control &rest numbers)
+           (complain form "~?" control (apply #'figures numbers))))
     (let ((length (size "FINGER-LENGTH")) (dist (size "FINGER-DIST"))
           (pinch (size "DIST-PINCH")) (width (size "FINGER-WIDTH"))
           (spread (size "FINGER-SPREAD")))
       (when (and length dist pinch (> pinch (+ dist (* 2 length))))
-        (complain form "DIST-PINCH is ~a, but fingers of two links of ~a cm that start ~a cm ~
-                        apart open to ~a at most" (text pinch) (text length) (text dist)
-                        (text (+ dist (* 2 length)))))
+        (compare "DIST-PINCH is ~a, but fingers of two links of ~a cm that start ~a cm apart open to ~
+                  ~a at most" pinch length dist (+ dist (* 2 length))))
       (when (and width spread (> width spread))
-        (complain form "FINGER-WIDTH is ~a, more than FINGER-SPREAD, ~a" (text width) (text spread)))
+        (compare "FINGER-WIDTH is ~a, more than FINGER-SPREAD, ~a" width spread))
       (when (and spread pinch (> spread pinch))
-        (complain form "FINGER-SPREAD is ~a, more than DIST-PINCH, ~a" (text spread) (text pinch))))))
+        (compare "FINGER-SPREAD is ~a, more than DIST-PINCH, ~a" spread pinch)))))
 
 (defun definition-form (form)
   "Return the name and the list of FORM, (SETQ name '(...)), or NIL after a complaint."
