@@ -124,7 +124,8 @@
     (arithmetic-error () nil)))
 
 (defun closing-friction (grasp registers)
-  "Return the least friction above that in REGISTERS that closes GRASP, or NIL."
+  "Return the least friction above that in REGISTERS that closes GRASP, or NIL; and the greatest that
+does not."
   (let ((low (aref registers +u+))
         (high (max 1d0 (* 2 (aref registers +u+)))))
     (loop until (or (closed-at-p grasp registers high) (> high 100d0))
@@ -135,7 +136,7 @@
                  (if (closed-at-p grasp registers middle)
                      (setf high middle)
                      (setf low middle))))
-      high)))
+      (values high low))))
 
 (defun describe-open (candidate attempt)
   (let* ((grasp (%candidate-grasp candidate))
@@ -144,10 +145,10 @@
     (cond ((not (program-value-p (grasp-wrench grasp) registers)) "a form of WRENCH has no value")
           ((closed-at-p grasp registers u) "a form of TWIST, or the index, has no value in range")
           (t
-           (let ((needed (closing-friction grasp registers)))
+           (multiple-value-bind (needed too-little) (closing-friction grasp registers)
              (if needed
-                 (format nil "open: the contacts don't close on this shape; needs u > ~a, has ~a"
-                         (figure needed) (figure u))
+                 (apply #'format nil "open: the contacts don't close on this shape; needs u > ~a, ~
+                                      has ~a" (figures too-little u))
                  "open: the contacts don't close on this shape with any friction"))))))
 
 (defun bounded-ratio (a b)
