@@ -62,8 +62,8 @@ has the assertion."
 
 (defun apart-text (distance relation dimension threshold)
   "Return that two faces are DISTANCE apart, which stands in RELATION to the DIMENSION, THRESHOLD."
-  (format nil "they are ~a cm apart, ~a ~a, ~a" (figure distance) relation dimension
-          (figure threshold)))
+  (destructuring-bind (distance threshold) (figures distance threshold)
+    (format nil "they are ~a cm apart, ~a ~a, ~a" distance relation dimension threshold)))
 
 ;;; Their order is that of the predicates in a rule base.
 
@@ -89,7 +89,7 @@ has the assertion."
 
 (define-input "SLIPPERY" (:box box) (friction "SLIPPERY-U")
   (<= (%box-u box) friction)
-  (format nil "u is ~a, no more than SLIPPERY-U, ~a" (figure (%box-u box)) (figure friction)))
+  (apply #'format nil "u is ~a, no more than SLIPPERY-U, ~a" (figures (%box-u box) friction)))
 
 ;;; Ready for a gripper
 
