@@ -6,7 +6,6 @@
 ;;;; the same grasp, PINCH-2-PARALLEL, but refuses it because the faces above and below the hand
 ;;;; are both blocked and the block is thinner than the hand is wide: it takes the hand to be
 ;;;; shut in between the layers, which in fact end where the block ends.  It is too careful here.
-;;;; (The nearest miss that it names is PINCH-3-PARALLEL, whose two fingers find no room on an end.)
 
 (load (merge-pathnames "../src/boot.lisp" *load-truename*))
 (in-package :supergrip-user)

@@ -3,8 +3,9 @@
 ;;;; Only its bottom Z2 is blocked, and it weighs little, but each of its faces is farther from
 ;;;; the opposite one than the hand opens.  A person takes it between two hands or holds it by a
 ;;;; flap.  SUPER-GRIP has one hand and no grasp that could hold a flap.  It answers that it
-;;;; can't: whatever pair of faces a grasp would close across, the pair is too wide, and
-;;;; cardboard is not rough enough to be held by a corner.
+;;;; can't: the narrowest pair of faces that a grasp could close across is 30 cm, and the hand
+;;;; opens to 12.  A corner is no way out, whatever the friction: the middles of its faces are
+;;;; farther apart than that, too.
 
 (load (merge-pathnames "../src/boot.lisp" *load-truename*))
 (in-package :supergrip-user)

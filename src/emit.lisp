@@ -169,7 +169,6 @@ the jump (DECISIVE true), or the other."
 
 (defun emit-comparison (node wanted label code)
   (destructuring-bind (a b) (loop for operand in (node-args node) collect (emit operand code))
-    (setf (node-registers node) (list a b))
     (flet ((jump (op a b) (emit-step code op a b label)))
       ;; No register ever holds what is not a number, so what is not below is equal or above.
       (ecase (node-op node)
@@ -217,3 +216,13 @@ registers of the results."
                            (emit-label code failed)
                            (emit-step code :fail)
                            '()))))
+
+(defun comparison-programs (layout node)
+  "Return an alist from the comparisons in NODE, a test, to the programs of their operands."
+  (case (node-op node)
+    ((:and :or :not)
+     (loop for test in (node-args node) append (comparison-programs layout test)))
+    ((:< :<= :> :>= :=)
+     (list (cons node (emit-program layout (lambda (code)
+                                             (loop for operand in (node-args node)
+                                                   collect (emit operand code)))))))))

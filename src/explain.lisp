@@ -26,7 +26,8 @@
                       (format stream "~a is no name: rules and grasps are named by symbols or strings"
                               (form-text name)))
                      (t (format stream "there is no rule or grasp ~a~a; there are ~a~@[~%~a~]"
-                                (name-of name) (suggestion (name-of name) known) (listed known)
+                                (form-text (make-symbol (name-of name)))
+                                (suggestion (name-of name) known) (listed known)
                                 (and (in-force-p (name-of name)) +later-plan+)))))))
   (:documentation "A question was asked about a name that is neither a rule's nor a grasp's."))
 

@@ -7,9 +7,8 @@
 (in-package :supergrip)
 
 (defstruct node
-  "One step of a form.  OP and ARGS say what it does; FORM is where it stood; REGISTERS, once
-emitted, are those of its operands."
-  op (args '() :type list) form (registers '()))
+  "One step of a form.  OP and ARGS say what it does; FORM is where it stood."
+  op (args '() :type list) form)
 
 (defun input-node (register)
   (make-node :op :input :args (list register)))

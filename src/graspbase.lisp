@@ -7,10 +7,11 @@
 CONTACTS a list of (SLOT P Q), P and Q being registers; PLACES holds the same as axes (0 to 2) and
 registers in turn, without the axes that the faces are normal to.  The other parts are PROGRAMs.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
-SAME, for each matching, the set of those that are the same grasp, itself included."
+SAME, for each matching, the set of those that are the same grasp, itself included; COMPARISONS is
+an alist from the comparisons in CONDITIONS-NODE to the programs of their operands."
   (name "" :type string) form file line (comment '()) (index 0 :type fixnum)
   (used '() :type list) (palm 0 :type fixnum)
-  (conditions-node nil) (conditions nil :type (or null program))
+  (conditions-node nil) (conditions nil :type (or null program)) (comparisons '() :type list)
   (offset nil :type (or null program))
   (positions nil :type (or null program)) (contacts '() :type list)
   (places nil :type register-vector)
@@ -253,6 +254,7 @@ of them."
               :used (draft-used draft) :palm (draft-palm draft)
               :conditions-node (draft-conditions draft)
               :conditions (emit-test layout (draft-conditions draft))
+              :comparisons (comparison-programs layout (draft-conditions draft))
               :offset (six (draft-offset draft))
               :positions positions
               :places (contact-places contacts places)

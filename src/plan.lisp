@@ -25,11 +25,16 @@ stands for; NIL if it is none of these."
     (grasp (grasp-name designator))
     ((or symbol string) (string-upcase designator))))
 
-(defun listed (names &optional (most 40))
-  "Return NAMES, a list, with commas between them; of many only the first MOST, and how many more."
+(defun listed (names &optional (most 40) (between ", "))
+  "Return NAMES, a list of strings, with BETWEEN between them; of many the first MOST, and how many
+more."
   (let ((left (- (length names) most)))
-    (format nil "~{~a~^, ~}~[~:; and ~:*~d more~]" (subseq names 0 (min most (length names)))
-            (max 0 left))))
+    (with-output-to-string (out)
+      (loop for (name . others) on names repeat most
+            do (write-string name out)
+               (when others (write-string between out)))
+      (when (plusp left)
+        (format out "and ~d more" left)))))
 
 (defstruct (plan (:constructor %make-plan) (:copier nil))
   "What was decided for a box, and all that led to it."

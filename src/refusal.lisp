@@ -104,8 +104,10 @@ first clause that fails for all of them.  NIL if none does."
 
 (defun write-fired (refusal stream)
   (let ((rule (refusal-rule refusal)))
-    (format stream "RULE ~a did fire~:[~;~:*, with ~{~a~^; ~}~]~@[, and ended the run before, ~a~].~%"
-            (rule-name rule) (binding-texts rule (refusal-fired refusal))
+    (format stream "RULE ~a did fire~@[, with ~a~]~@[, and ended the run before, ~a~].~%"
+            (rule-name rule)
+            (let ((texts (binding-texts rule (refusal-fired refusal))))
+              (and texts (listed texts 12 "; ")))
             (and (refusal-stop refusal) (stop-text (refusal-stop refusal))))))
 
 (defun binding-texts (rule bindings)
@@ -132,8 +134,7 @@ first clause that fails for all of them.  NIL if none does."
 (defun write-tried-bindings (rule bindings stream)
   (let ((texts (binding-texts rule bindings)))
     (when texts
-      (format stream "  Tried: ~{~a~^; ~}~:[~;; and ~d more~]~%" (subseq texts 0 (min 4 (length texts)))
-              (> (length texts) 4) (- (length texts) 4)))))
+      (format stream "  Tried: ~a~%" (listed texts 4 "; ")))))
 
 (defun missing-text (clause bound)
   "Return what is missing for CLAUSE; BOUND is true if clauses before it chose its surfaces."

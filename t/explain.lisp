@@ -105,7 +105,7 @@
             (,pencil pinch-3-parallel nil
              "PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1): it is the best grasp.")
             (,(plan-of '(30 20 30) 0.5d0 '(z2)) pinch-3-u-shape nil
-             "PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1): the distance of Y2 and Y1 is 20, must be < 12 (DIST-PINCH).")
+             "PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1): Y2 and Y1 are 20 cm apart, the hand opens to 12.")
             (,(plan-of '(20 10 5) 0.8d0 '(z2) :weight 11) pinch-3-parallel nil
              "PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1): it can't hold the weight: the load along Z is 11, the grasp bears 1.6.")
             (,(plan-of '(4 4 4) 0.6d0 '(z2 y2 x2)) pinch-2-adjacent nil

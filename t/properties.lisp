@@ -278,9 +278,9 @@
     (supergrip::with-attempt (attempt plan)
       (dolist (candidate candidates best)
         (when (eq step (supergrip:candidate-outcome candidate))
-          (let ((shortfall (supergrip::shortfall candidate attempt nil)))
-            (when (or (null least) (< shortfall (- least supergrip::+tie+)))
-              (setf best candidate least shortfall))))))))
+          (let ((shortfalls (supergrip::shortfalls candidate attempt nil)))
+            (when (or (null best) (supergrip::misses-less-p shortfalls least))
+              (setf best candidate least shortfalls))))))))
 
 (test the-nearest-miss-is-the-nearest
   (let ((open 0))

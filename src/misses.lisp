@@ -1,0 +1,305 @@
+;;;; misses.lisp -- which parts of a grasp's conditions are false, how far off each is, and in words.
+
+(in-package :supergrip)
+
+;;; What the nodes of forms are, for this file.
+
+(defun test-kind (node)
+  "Return what the test NODE is: :TRUE, :FALSE, :NOT, :AND, :OR, :CONSTRAINED or :COMPARISON."
+  (case (node-op node)
+    (:blocked :constrained)
+    ((:< :<= :> :>= :=) :comparison)
+    (t (node-op node))))
+
+(defun comparison-name (node) (symbol-name (node-op node)))
+(defun comparison-nodes (node) (node-args node))
+(defun comparison-holds-p (node a b) (funcall (comparison-function (node-op node)) a b))
+
+(defun comparison-operands (node grasp registers)
+  "Return the values of the two operands of NODE, a comparison in the conditions of GRASP, on
+REGISTERS, which hold what box and matching give.  NIL if one has no value."
+  (let ((program (cdr (assoc node (grasp-comparisons grasp)))))
+    (and (has-value-p program registers)
+         (values-list (map 'list (lambda (register) (aref registers register))
+                           (program-results program))))))
+
+(defun has-value-p (program registers)
+  "Run PROGRAM on REGISTERS.  True if it has a value."
+  (handler-case (progn (execute program registers) t)
+    (arithmetic-error () nil)))
+
+(defun body-of (node)
+  "Return the node whose value NODE has."
+  (if (eq (node-op node) :let) (body-of (second (node-args node))) node))
+
+(defun operands-of (node name)
+  "Return the operands of NODE if it is the operation NAME, or NIL."
+  (let ((node (body-of node)))
+    (and (eq (node-op node) (find-symbol name :keyword)) (node-args node))))
+
+(defun input-of (node)
+  "Return the register of NODE if it is what the box gives, or NIL."
+  (let ((node (body-of node)))
+    (and (eq (node-op node) :input) (first (node-args node)))))
+
+;;; Faults
+
+(defstruct fault
+  "A part of conditions that is false.  NODE is the test, which should be false if NEGATED.  NUMBERS
+are the two that it compares; ALTERNATIVES, of parts of which one would do, a list of the faults of
+each.  SHORTFALL is how far off it is: 0 to 1, relative; 1 where that can't be said."
+  node negated (numbers '()) (alternatives '()) (shortfall 1))
+
+(defun relative-difference (a b)
+  "Return by how much A and B differ, 0 to 1, relative to the greater."
+  (let ((most (max (abs a) (abs b))))
+    (if (zerop most) 0 (min 1 (abs (- (/ a most) (/ b most)))))))
+
+(defun faults (node negated grasp registers)
+  "Return the faults of NODE, a test of GRASP that should be true, or false if NEGATED, on REGISTERS,
+which hold what box and matching give: all that would have to change for it to be as it should."
+  (flet ((fault-if (false &rest more)
+           (and false (list (apply #'make-fault :node node :negated negated more))))
+         (joined (all) (joined-faults node negated all grasp registers)))
+    (ecase (test-kind node)
+      (:true (fault-if negated))
+      (:false (fault-if (not negated)))
+      (:not (faults (first (node-args node)) (not negated) grasp registers))
+      (:and (joined (not negated)))
+      (:or (joined negated))
+      (:constrained
+       (fault-if (eq negated (= 1d0 (aref registers (+ +blocked+ (first (node-args node))))))))
+      (:comparison
+       (multiple-value-bind (a b) (comparison-operands node grasp registers)
+         (if a
+             (fault-if (eq negated (comparison-holds-p node a b))
+                       :numbers (list a b) :shortfall (relative-difference a b))
+             (fault-if t)))))))
+
+(defun joined-faults (node negated all grasp registers)
+  "Return the faults of NODE, which joins tests: of each, if ALL must be as they should, else of one."
+  (let ((each (loop for test in (node-args node) collect (faults test negated grasp registers))))
+    (cond (all (reduce #'append each))
+          ((member nil each) '())
+          (t (let ((alternatives (loop for faults in each
+                                       append (or (flat-alternatives faults) (list faults)))))
+               (list (make-fault :node node :negated negated :alternatives alternatives
+                                 :shortfall (reduce #'min alternatives :key #'worst-shortfall))))))))
+
+(defun flat-alternatives (faults)
+  (and (null (rest faults)) (fault-alternatives (first faults))))
+
+(defun worst-shortfall (faults)
+  (reduce #'max faults :key #'fault-shortfall))
+
+(defun candidate-faults (candidate attempt)
+  "Return the faults of the conditions of CANDIDATE, the worst first; ATTEMPT is at its box."
+  (let ((grasp (%candidate-grasp candidate)))
+    (place-box attempt (%candidate-matching candidate))
+    (stable-sort (faults (grasp-conditions-node grasp) nil grasp (attempt-registers attempt))
+                 #'> :key #'fault-shortfall)))
+
+;;; What is compared
+
+(defun distance-axis (node)
+  "Return the axis, 0 to 2, if NODE is the distance of two opposite faces, or NIL."
+  (let ((register (input-of node)))
+    (and register (<= +distances+ register (+ +distances+ 2)) (- register +distances+))))
+
+(defun half-axis (node)
+  "Return the axis if NODE is half the distance of two opposite faces, or NIL."
+  (flet ((half (a b number)
+           (and (constant-p b) (= (constant-value b) number) (distance-axis a))))
+    (destructuring-bind (&optional a b) (or (operands-of node "/") (operands-of node "*"))
+      (cond ((null b) nil)
+            ((operands-of node "/") (half a b 2))
+            (t (or (half a b 0.5d0) (half b a 0.5d0)))))))
+
+(defun places-axes (node)
+  "Return the axes of the two faces if NODE is how far apart their middles are, or NIL."
+  (flet ((square (node)
+           (destructuring-bind (&optional a b) (operands-of node "*")
+             (and b (eql (half-axis a) (half-axis b)) (half-axis a)))))
+    (let* ((sum (first (operands-of node "SQRT")))
+           (squares (and sum (operands-of sum "+")))
+           (axes (mapcar #'square squares)))
+      (and (= (length axes) 2) (notany #'null axes) axes))))
+
+(defun plain-operand-p (node)
+  "True if NODE is something of the box that has a name in words."
+  (or (input-of node) (places-axes node)))
+
+;;; In words
+
+(defun face-of (slot matching)
+  (surface-name (svref (matching-faces matching) slot)))
+
+(defun touched-face (axis grasp matching)
+  "Return the name of the face on AXIS that a finger of GRASP touches, or those of both faces."
+  (let ((slots (remove-duplicates (loop for (slot) in (grasp-contacts grasp)
+                                        when (= axis (floor slot 2)) collect slot))))
+    (format nil "~{~a~^ or ~}" (loop for slot in (or slots (list (* 2 axis) (1+ (* 2 axis))))
+                                     collect (face-of slot matching)))))
+
+(defun input-names (node matching)
+  "Return in words what of the box NODE is computed from."
+  (let ((seen (make-hash-table :test #'eq)) (registers '()))
+    (labels ((walk (thing)
+               (cond ((consp thing) (mapc #'walk thing))
+                     ((not (node-p thing)))
+                     ((input-of thing) (pushnew (input-of thing) registers))
+                     ((not (gethash thing seen))
+                      (setf (gethash thing seen) t)
+                      (walk (node-args thing))))))
+      (walk node))
+    (loop for register in (sort registers #'<)
+          collect (cond ((= register +u+) "u")
+                        ((= register +v+) "v")
+                        (t (axis-faces (- register +distances+) matching))))))
+
+(defun axis-faces (axis matching)
+  (format nil "~a ~a" (face-of (* 2 axis) matching) (face-of (1+ (* 2 axis)) matching)))
+
+(defun operand-words (node figure grasp matching)
+  "Return in words that NODE, an operand, is FIGURE."
+  (let ((axis (distance-axis node)) (places (places-axes node)) (input (input-of node)))
+    (cond (axis (format nil "~a and ~a are ~a cm apart" (face-of (* 2 axis) matching)
+                        (face-of (1+ (* 2 axis)) matching) figure))
+          (places (format nil "the finger places on ~{~a~^ and ~} are ~a cm apart"
+                          (loop for axis in places collect (touched-face axis grasp matching))
+                          figure))
+          (input (format nil "~:[v~;u~] is ~a" (= input +u+) figure))
+          ((constant-p node) (format nil "the number ~a" figure))
+          (t (format nil "what the conditions compute from ~{~a~^, ~} is ~a"
+                     (input-names node matching) figure)))))
+
+(defparameter +demands+
+  '(("DIST-PINCH" ("<" "<=") "the hand opens to ~a")
+    ("FINGER-WIDTH" (">" ">=") "a fingertip needs ~a")
+    ("FINGER-SPREAD" (">" ">=") "two fingers side by side need ~a")
+    ("WIDTH-HAND" (">" ">=") "the hand needs more than ~a"))
+  "What a comparison of a distance with a dimension of the gripper asks, in words.")
+
+(defun demand-words (node op figure other form)
+  "Return in words that NODE must be OP, a string, as against FIGURE, the value of FORM; OTHER is its
+node."
+  (let* ((name (and (namep form) (constant-p other) (symbol-name form)))
+         (demand (and (or (distance-axis node) (places-axes node))
+                      (find-if (lambda (row) (and (equal name (first row))
+                                                  (member op (second row) :test #'string=)))
+                               +demands+))))
+    (if demand
+        (format nil (third demand) figure)
+        (format nil "must be ~a ~a~@[ (~a)~]" op figure name))))
+
+(defun operand-forms (form)
+  "Return the forms of the two operands of the comparison FORM, infix or prefix."
+  (if (comparison-p (first form)) (rest form) (list (first form) (third form))))
+
+(defun demanded-comparison (name negated turned)
+  "Return the comparison that is asked for, where the one of NAME should not hold if NEGATED, with its
+operands exchanged if TURNED."
+  (let ((name (if negated
+                  (second (assoc name '(("<" ">=") ("<=" ">") (">" "<=") (">=" "<") ("=" "other than"))
+                                 :test #'string=))
+                  name)))
+    (if turned
+        (or (second (assoc name '(("<" ">") ("<=" ">=") (">" "<") (">=" "<=")) :test #'string=))
+            name)
+        name)))
+
+(defun comparison-parts (fault)
+  "Return the operand that the FAULT of a comparison is about, its value, what is asked of it (as
+\"<\"), and the other operand, its value and its form."
+  (destructuring-bind (a b) (comparison-nodes (fault-node fault))
+    (let* ((turned (and (not (plain-operand-p a)) (or (plain-operand-p b) (constant-p a))))
+           (nodes (if turned (list b a) (list a b)))
+           (numbers (if turned (reverse (fault-numbers fault)) (fault-numbers fault)))
+           (forms (operand-forms (node-form (fault-node fault)))))
+      (values (first nodes) (first numbers)
+              (demanded-comparison (comparison-name (fault-node fault)) (fault-negated fault) turned)
+              (second nodes) (second numbers) (if turned (first forms) (second forms))))))
+
+(defun comparison-words (fault grasp matching)
+  (multiple-value-bind (node number op other other-number form) (comparison-parts fault)
+    (destructuring-bind (text other-text) (figures number other-number)
+      (format nil "~a, ~a" (operand-words node text grasp matching)
+              (demand-words node op other-text other form)))))
+
+(defun fault-words (fault grasp matching)
+  "Return FAULT of GRASP in MATCHING in words, with its figures."
+  (let ((node (fault-node fault)))
+    (cond ((fault-alternatives fault) (alternatives-words fault grasp matching))
+          ((eq (test-kind node) :constrained)
+           (format nil "~a is ~:[not ~;~]constrained" (face-of (first (node-args node)) matching)
+                   (fault-negated fault)))
+          ((fault-numbers fault) (comparison-words fault grasp matching))
+          ((eq (test-kind node) :comparison) "a form of CONDITIONS has no value")
+          (t (format nil "~a ~:[is never true~;is always true~]" (form-text (node-form node) 60)
+                     (fault-negated fault))))))
+
+(defun constrained-face (faults matching)
+  "Return the name of the face if FAULTS say no more than that one is constrained, or NIL."
+  (let ((node (fault-node (first faults))))
+    (and (null (rest faults)) (eq (test-kind node) :constrained) (fault-negated (first faults))
+         (face-of (first (node-args node)) matching))))
+
+(defun alternatives-words (fault grasp matching)
+  "Return in words that none of the alternatives of FAULT is as it should be."
+  (let ((faces '()) (others '()))
+    (dolist (faults (fault-alternatives fault))
+      (let ((face (constrained-face faults matching)))
+        (if face
+            (push face faces)
+            (push (faults-words faults grasp matching) others))))
+    (when faces
+      (push (format nil "~{~a~#[~; and ~:;, ~]~} ~[~;is~;are both~:;are all~] constrained"
+                    (reverse faces) (length faces))
+            others))
+    (format nil "~{~a~^, and ~}" (reverse others))))
+
+(defparameter +most-faults+ 8 "How many faults of one candidate are told.")
+
+(defun faults-words (faults grasp matching)
+  "Return FAULTS in words."
+  (let ((left (- (length faults) +most-faults+)))
+    (format nil "~{~a~^; ~}~[~:;; and ~:*~d more~]"
+            (loop for fault in faults repeat +most-faults+
+                  collect (fault-words fault grasp matching))
+            (max 0 left))))
+
+(defun describe-condition-failure (candidate attempt)
+  "Return all that is false in the conditions of CANDIDATE, the worst first."
+  (faults-words (or (candidate-faults candidate attempt)
+                    (return-from describe-condition-failure "a form of CONDITIONS has no value"))
+                (%candidate-grasp candidate) (%candidate-matching candidate)))
+
+;;; A miss that one thing explains
+
+(defun clear-p (faults)
+  "True if FAULTS are one comparison of something that has a name with a number."
+  (and faults (null (rest faults)) (fault-numbers (first faults))
+       (multiple-value-bind (node number op other) (comparison-parts (first faults))
+         (declare (ignore number op))
+         (and (plain-operand-p node) (constant-p other)))))
+
+(defun free-widths (box)
+  "Return the sizes of BOX along the axes whose two faces are free."
+  (loop for axis below 3
+        for faces = (loop for face below 6 when (= axis (surface-axis face)) collect face)
+        when (notany (lambda (face) (logbitp face (%box-constrained box))) faces)
+          collect (aref (%box-size box) axis)))
+
+(defun too-wide-text (candidate attempt)
+  "Return that the narrowest free pair of faces is too wide for CANDIDATE, if that is why it failed."
+  (let ((faults (candidate-faults candidate attempt)))
+    (when (clear-p faults)
+      (multiple-value-bind (node number op other limit form) (comparison-parts (first faults))
+        (let ((axis (distance-axis node)))
+          (when (and axis (member op '("<" "<=") :test #'string=)
+                     (= number (reduce #'min (free-widths (attempt-box attempt))
+                                       :initial-value most-positive-double-float)))
+            (destructuring-bind (text limit-text) (figures number limit)
+              (format nil "the narrowest free pair, ~a, is ~a cm; ~a"
+                      (char "XYZ" (aref (matching-axes (%candidate-matching candidate)) axis))
+                      text (demand-words node op limit-text other form)))))))))
