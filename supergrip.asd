@@ -53,6 +53,7 @@
   :pathname "src/draw/"
   :serial t
   :components ((:file "package")
+               (:file "numbers")
                (:file "geometry")
                (:file "labels")
                (:file "svg")

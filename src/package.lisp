@@ -32,7 +32,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:box-constrained #:box-force-needed #:box-velocity-needed
    ;; knowledge
    #:*knowledge* #:load-knowledge #:knowledge #:knowledge-rules #:knowledge-grasps
-   #:knowledge-gripper #:knowledge-warnings
+   #:knowledge-gripper #:knowledge-warnings #:grasp-name #:grasp-form
    ;; plans
    #:plan #:*gamma* #:plan-box #:plan-knowledge #:plan-gamma #:plan-verdict #:plan-reason
    #:plan-best #:plan-candidates #:plan-possible #:plan-rejected #:plan-log #:plan-assertions

@@ -163,20 +163,146 @@
      '(USED-SURFACES (N1 A2) CONDITIONS (1 < 0) OFFSET (LIST 0 0 0 0 0 0)
        WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1)))")
 
+(defun knowledge-with (text)
+  "Return the knowledge that is loaded with the grasps in TEXT."
+  (uiop:with-temporary-file (:pathname grasps :stream out)
+    (write-string (uiop:read-file-string (own-file "grasps.lisp")) out)
+    (write-string text out)
+    (finish-output out)
+    (handler-bind ((warning #'muffle-warning))
+      (supergrip:load-knowledge :grasps grasps))))
+
+(defun grasp-text (name conditions &rest contacts)
+  (format nil "(SETQ ~a '(USED-SURFACES (N1 N2 A1 A2) CONDITIONS (~a) OFFSET (LIST 0 0 0 0 0 0)
+WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name conditions contacts))
+
 (test grasps-of-a-user-are-drawn
   (with-folder (folder)
-    (uiop:with-temporary-file (:pathname grasps :stream out)
-      (write-string (uiop:read-file-string (own-file "grasps.lisp")) out)
-      (write-string *own-grasp* out)
-      (finish-output out)
-      (supergrip-draw:draw-grasps (in-folder folder "grasps.svg")
-                                  :knowledge (supergrip:load-knowledge :grasps grasps)))
+    (supergrip-draw:draw-grasps (in-folder folder "grasps.svg")
+                                :knowledge (knowledge-with *own-grasp*))
     (destructuring-bind ((file complaints views)) (parsed folder)
       (is (null complaints) "~a: ~a" file complaints)
-      (is (equal '(2 3 3 3 2 3 3 3) (mapcar #'fingers-in views)))
+      (is (equal 3 (fingers-in (first (last views)))))
       (let ((text (uiop:read-file-string (in-folder folder file))))
         (is (search "HOOK-&lt;3" text))
         (is (search "possible on none of the reference boxes" text))))))
+
+(defun readme-grasp ()
+  "Return the grasp that the README has as an example."
+  (let* ((text (uiop:read-file-string (own-file "README.md")))
+         (start (search "(SETQ LATERAL" text)))
+    (subseq text start (search "```" text :start2 start))))
+
+(test reference-boxes-meet-conditions
+  ;; Conditions below, at, above and between dimensions, on friction and constrained faces.
+  (let ((knowledge (knowledge-with
+                    (format nil "~{~a~}"
+                            (cons (if (find "LATERAL" (supergrip:knowledge-grasps
+                                                       supergrip:*knowledge*)
+                                            :key #'supergrip:grasp-name :test #'string=)
+                                      ""
+                                      (readme-grasp))
+                                  (loop for (name conditions)
+                                        in '(("THIN" "(DIST '(N1 N2)) < 0.3")
+                                             ("AT" "(DIST '(N1 N2)) = FINGER-WIDTH")
+                                             ("BETWEEN" "(0.2 < (DIST '(N1 N2))) AND ((DIST '(N1 N2)) < 0.21)")
+                                             ("WIDE" "(DIST '(O1 O2)) > DIST-PINCH")
+                                             ("STRIP" "((DIST '(N1 N2)) < FINGER-WIDTH) AND ((DIST '(A1 A2)) > DIST-PINCH)")
+                                             ("SMOOTH" "U < 0.5")
+                                             ("LYING" "(CONSTRAINED O1)"))
+                                        collect (grasp-text name conditions "(N1 0 0)" "(N2 0 0)")))))))
+    (dolist (grasp (supergrip:knowledge-grasps knowledge))
+      (is (supergrip-draw::reference-candidate grasp knowledge) "~a" grasp))))
+
+(test any-number-of-fingers-is-drawn
+  (let ((knowledge (knowledge-with
+                    (format nil "~a~a~a"
+                            (grasp-text "FOUR" "T" "(N1 0 0)" "(N1 1/2 0)" "(N1 0 1/2)" "(N1 1/2 1/2)")
+                            (grasp-text "SAME" "T" "(N1 0 0)" "(N1 0 0)" "(N1 0 0)" "(N1 0 0)"
+                                        "(N1 0 0)" "(N2 0 0)" "(A1 0 0)" "(A2 0 0)")
+                            (apply #'grasp-text "MANY" "T"
+                                   (loop for i below 16
+                                         collect (format nil "(N1 ~a ~a)" (/ i 16) (/ (mod i 4) 4))))))))
+    (with-folder (folder)
+      (dolist (name '("FOUR" "SAME" "MANY"))
+        (let ((plan (supergrip:try-grasp name (cdr (assoc "pencil" (example-boxes) :test #'string=))
+                                         :knowledge knowledge)))
+          (supergrip-draw:draw-plan plan (in-folder folder "~a.svg" name))
+          (supergrip-draw:draw-session plan (in-folder folder "~a-session.svg" name))))
+      (loop for (file complaints) in (parsed folder)
+            do (is (null complaints) "~a: ~a" file complaints))))
+  (is (equal '("F1" "F1 and F2" "F1, F2 and F3" "F1, F2, F3 and F4")
+             (loop for end from 1 to 4
+                   collect (supergrip-draw::list-text (subseq '("F1" "F2" "F3" "F4") 0 end))))))
+
+;;; What can't be drawn
+
+(defun sized-box (&rest size)
+  `((size ,@size) (weight 0) (u 0.8) (v 0.2) (constrained)
+    (force-needed (1 1 1 1 1 1)) (velocity-needed (1 1 1 1 1 1))))
+
+(test what-cannot-be-drawn-is-an-error-of-ours
+  (with-folder (folder)
+    (loop for size in '((0.6 1d-300 1d300) (1d300 1d300 1d300) (1d-300 1d-300 1d-300)
+                        (1 1d-300 1) (1d10 1 1))
+          for plan = (supergrip:plan (apply #'sized-box size))
+          do (dolist (draw (list #'supergrip-draw:draw-plan #'supergrip-draw:draw-session
+                                 #'supergrip-draw:draw-quality #'supergrip-draw:report))
+               (signals supergrip-draw:drawing-error
+                 (funcall draw plan (in-folder folder "x.svg")))))
+    (is (null (uiop:directory-files folder)) "nothing is written"))
+  (is (equal "0.6 × 1e-300 × 1e300 cm can't be drawn: sizes from 1e-6 to 1e9 cm can be"
+             (handler-case (supergrip-draw:draw-plan (supergrip:plan (sized-box 0.6 1d-300 1d300))
+                                                     "x.svg")
+               (supergrip:supergrip-error (condition) (princ-to-string condition))))))
+
+(test extreme-boxes-that-can-be-drawn-are
+  (with-folder (folder)
+    (loop for size in '((1d-6 1d-6 1d9) (1d9 1d9 1d-6) (5 1d9 5) (5 1d-6 1d9) (1d-6 1d-6 1d-6))
+          for number from 1
+          for plan = (supergrip:plan (apply #'sized-box size))
+          do (supergrip-draw:draw-plan plan (in-folder folder "~d.svg" number))
+             (supergrip-draw:report plan (in-folder folder "~d.html" number)))
+    (loop for (file complaints) in (parsed folder)
+          do (is (null complaints) "~a: ~a" file complaints))))
+
+(test a-page-that-cannot-be-drawn-costs-itself-only
+  (with-folder (folder)
+    (let ((plans (loop for size in '((12 2 2) (0.6 1d-300 1d300) (4 4 4))
+                       collect (supergrip:plan (apply #'sized-box size)))))
+      (multiple-value-bind (index lost) (supergrip-draw:report-index plans folder)
+        (is (= 1 lost))
+        (is (= 3 (length (uiop:directory-files folder))) "two pages and the index")
+        (is-true (search "No page: 0.6 &#xD7; 1e-300" (uiop:read-file-string index)))
+        (is-true (search "1 page can" (uiop:read-file-string index)))))
+    (loop for (file complaints) in (parsed folder)
+          do (is (null complaints) "~a: ~a" file complaints))))
+
+(test odd-names-of-files-are-taken-as-they-stand
+  (with-folder (folder)
+    (let ((plan (supergrip:plan (sized-box 12 2 2)))
+          (outside (in-folder folder "outside")))
+      (flet ((name (name) (concatenate 'string (uiop:native-namestring folder) name)))
+        (dolist (name '("a[1].svg" "b*?.svg" "c\\d.svg" "no-type"))
+          (supergrip-draw:draw-session plan (name name))
+          (is (probe-file (uiop:parse-native-namestring (name name)))))
+        (supergrip-draw:report-index (list plan) (name "r[1]"))
+        (is (probe-file (uiop:parse-native-namestring (name "r[1]/index.html"))))
+        ;; A link is replaced, not followed.
+        (with-open-file (out outside :direction :output) (write-string "mine" out))
+        (uiop:run-program (list "ln" "-s" (uiop:native-namestring outside) (name "link.svg")))
+        (supergrip-draw:draw-session plan (name "link.svg"))
+        (is (equal "mine" (uiop:read-file-string outside)))))))
+
+(test numbers-for-readers
+  (loop for (text number . digits) in '(("0" 0d0) ("0.08" 0.08d0) ("12" 12) ("12.3" 12.345d0)
+                                        ("12.35" 12.345d0 4) ("1e300" 1d300) ("1e-300" 1d-300)
+                                        ("9.99e-10" 9.99d-10) ("1e10" 9.999d9) ("−1.5" -1.5d0)
+                                        ("1235" 1234.5d0) ("0.001" 0.001d0))
+        do (is (equal text (apply #'supergrip-draw::quantity number digits)) "~a" number))
+  (is (equal '("0.770" "0.313" "0.860" "2.000" "−0.500" "0.000")
+             (mapcar (lambda (number) (supergrip-draw::fixed number 3))
+                     '(0.76951d0 0.3125d0 0.8595d0 1.9996d0 -0.5d0 -0.0001d0)))))
 
 (test reports-say-why
   (with-folder (folder)
@@ -207,8 +333,7 @@
 
 (test exported-names-are-documented
   (do-external-symbols (name :supergrip-draw)
-    (is (fboundp name))
-    (is (documentation name 'function))))
+    (is (or (documentation name 'function) (documentation name 'type)) "~a" name)))
 
 ;;; The batch
 

@@ -16,6 +16,19 @@
             "~s must stand once in the paper's text" from)
     (concatenate 'string (subseq text 0 place) to (subseq text (+ place (length from))))))
 
+(defun rule-total () (length (supergrip:knowledge-rules supergrip:*knowledge*)))
+(defun grasp-total () (length (supergrip:knowledge-grasps supergrip:*knowledge*)))
+
+(defparameter *shipped-grasps*
+  '("PINCH-2-PARALLEL" "PINCH-3-PARALLEL" "PINCH-3-U-SHAPE" "PINCH-3-C-SHAPE" "PINCH-2-ADJACENT"
+    "PINCH-3-ADJACENT" "PINCH-3-CORNER")
+  "The names of the seven grasps: who runs the tests may have added others.")
+
+(defun shipped-grasps ()
+  (remove-if-not (lambda (grasp)
+                   (member (supergrip:grasp-name grasp) *shipped-grasps* :test #'string=))
+                 (supergrip:knowledge-grasps supergrip:*knowledge*)))
+
 (defun part-between (text start end)
   "Return the part of TEXT from START up to END."
   (let ((from (search start text)))

@@ -1,31 +1,77 @@
 ;;;; grasps-picture.lisp -- DRAW-GRASPS: the grasp modes, the paper's Figure 1.
 ;;;;
-;;;; Each grasp is tried on reference boxes, smaller and larger ones, till one can be held, and is
-;;;; drawn with the palm above: so a grasp that a user has added is drawn, too, from its data.
+;;;; Each grasp is tried on reference boxes until one can be held, and is drawn with the palm above: so
+;;;; a grasp that a user has added is drawn, too, from its data.
 
 (in-package :supergrip-draw)
 
-(defparameter +reference-sizes+
-  '((6.4 4.6 4) (4 4 4) (8 7 6) (3 2.5 2) (12 11 10) (1.2 1.2 1.2) (10 4 2) (20 18 16))
-  "Sizes of the reference boxes, in cm, in the order in which they are tried.")
+;;; Reference boxes.  Their sizes come from the numbers and dimensions in the grasp's conditions, and
+;;; then from all dimensions of the gripper: below, at and above each.
 
-(defun reference-box (size u)
-  "Return the description of a reference box, free on all sides, whose task needs a little of all."
-  `((size ,@size) (weight 0) (u ,u) (v 0.2) (constrained)
+(defun numbers-of (form gripper)
+  "Return the numbers above zero in FORM, the value of a dimension of GRIPPER for its name."
+  (cond ((consp form) (append (numbers-of (first form) gripper) (numbers-of (rest form) gripper)))
+        ((realp form) (and (plusp form) (list (coerce form 'double-float))))
+        (t (let ((entry (and form (assoc form gripper :test #'string-equal))))
+             (and entry (plusp (cdr entry)) (list (cdr entry)))))))
+
+(defun sizes-near (numbers)
+  "Return the sizes just below, at and just above each of NUMBERS, ascending."
+  (sort (remove-duplicates (loop for number in numbers
+                                 append (list (* 0.9d0 number) number (* 1.1d0 number))))
+        #'<))
+
+(defun with-middles (sizes)
+  "Return SIZES, ascending, and what is in the middle between each and the next."
+  (loop for (size next) on sizes
+        collect size
+        when next collect (/ (+ size next) 2)))
+
+(defun shape-cost (size most)
+  "Return how far SIZE, three numbers, the greatest first, is from what is seen best: a box not too
+long, and small, so that the fingers are apart.  MOST is the greatest size that there is."
+  (destructuring-bind (long middle short) size
+    (+ (abs (- (/ long short) 1.6d0)) (abs (- (/ middle short) 1.15d0)) (/ long most))))
+
+(defun reference-sizes (sizes)
+  "Return all triples that are made of SIZES, ascending, the best to look at first."
+  (stable-sort (loop for (long . others) on (reverse sizes)
+                     append (loop for (middle . rest) on (cons long others)
+                                  append (loop for short in (cons middle rest)
+                                               collect (list long middle short))))
+               #'< :key (lambda (size) (shape-cost size (first (last sizes))))))
+
+(defun all-reference-sizes (grasp knowledge)
+  "Return the sizes of the boxes on which GRASP of KNOWLEDGE is to be tried, in that order."
+  (let* ((gripper (knowledge-gripper knowledge))
+         (parts (second (third (grasp-form grasp))))
+         (own (loop for (key form) on parts by #'cddr
+                    when (string-equal key "CONDITIONS")
+                      append (numbers-of form gripper))))
+    (append (reference-sizes (with-middles (sizes-near own)))
+            (reference-sizes (sizes-near (numbers-of (mapcar #'car gripper) gripper))))))
+
+(defparameter +reference-tasks+
+  (loop for constrained in '(() (:z2) (:z2 :x1) (:z1 :z2))
+        append (loop for u in '(2 0.8d0 0.2d0) collect (list u constrained)))
+  "Friction and constrained faces of the reference boxes, in the order in which they are tried.")
+
+(defun reference-box (size u constrained)
+  "Return the description of a reference box, whose task needs a little of all."
+  `((size ,@size) (weight 0) (u ,u) (v 0.2d0) (constrained ,@constrained)
     (force-needed (0.1 0.1 0.1 0.1 0.1 0.1)) (velocity-needed (0 0 0 0 0 0))))
 
-(defun reference-plans (name knowledge)
-  "Return the arguments of the plans in which the grasp NAME is to be tried, each on another box."
-  (loop for u in '(2d0 0.8d0 4d0)
-        append (loop for size in +reference-sizes+
-                     collect (list name (reference-box size u) knowledge))))
-
-(defun reference-candidate (name knowledge)
-  "Return a possible candidate of the grasp NAME, and its plan; or NIL."
-  (loop for (name box knowledge) in (reference-plans name knowledge)
-        for plan = (try-grasp name box :knowledge knowledge)
-        do (when (plan-possible plan)
-             (return (values (best-seen (plan-possible plan) plan) plan)))))
+(defun reference-candidate (grasp knowledge)
+  "Return a possible candidate of GRASP of KNOWLEDGE, and its plan; or NIL."
+  (let ((sizes (all-reference-sizes grasp knowledge)) (tries 100000))
+    (loop for (u constrained) in +reference-tasks+
+          do (dolist (size sizes)
+               (when (minusp (decf tries)) (return-from reference-candidate nil))
+               (let ((plan (try-grasp (grasp-name grasp) (reference-box size u constrained)
+                                      :knowledge knowledge)))
+                 (when (plan-possible plan)
+                   (return-from reference-candidate
+                     (values (best-seen (plan-possible plan) plan) plan))))))))
 
 (defun best-seen (candidates plan)
   "Return the one of CANDIDATES of PLAN whose contacts are seen best with the palm above."
@@ -70,22 +116,20 @@
          (pairs (loop for (face . names) in by-face
                       for other = (cdr (assoc (opposite face) by-face))
                       when (and other (oddp face))
-                        collect (format nil "~{~a~^ and ~} ~:[oppose~;opposes~] ~{~a~^ and ~}"
-                                        names (null (rest names)) other))))
+                        collect (format nil "~a ~:[oppose~;opposes~] ~a"
+                                        (list-text names) (null (rest names)) (list-text other)))))
     (format nil "~:[no two fingers oppose~;~:*~{~a~^, ~}~]; palm over ~a" pairs
             (funcall name (subject-palm subject)))))
 
-(defun draw-grasp-cell (name knowledge x y width height)
-  "Draw the grasp NAME in a cell of a table of pictures.  Returns what it shows, in words."
-  (multiple-value-bind (candidate plan) (reference-candidate name knowledge)
-    (draw-text (fitting name "bold" (- width 16)) (list (+ x 10) (+ y 22)) :class "bold")
-    (if (null candidate)
-        (progn
-          (loop for line in (filled "possible on none of the reference boxes" "soft" (- width 20))
-                for below from (+ y 60) by 18
-                do (draw-text line (list (+ x 10) below) :class "soft"))
-          (format nil "~a: possible on none of the reference boxes." name))
-        (draw-reference candidate plan x y width height))))
+(defun draw-grasp-cell (grasp knowledge x y width height)
+  "Draw GRASP in a cell of a table of pictures.  Returns what it shows, in words."
+  (draw-text (fitting (grasp-name grasp) "bold" (- width 16)) (list (+ x 10) (+ y 22))
+             :class "bold")
+  (multiple-value-bind (candidate plan) (reference-candidate grasp knowledge)
+    (cond (candidate (draw-reference candidate plan x y width height))
+          (t (draw-text "possible on none of the reference boxes" (list (+ x 10) (+ y 60))
+                        :class "soft")
+             (format nil "~a: possible on none of the reference boxes." (grasp-name grasp))))))
 
 (defun draw-reference (candidate plan x y width height)
   (let* ((subject (grasp-subject candidate plan :namer (slot-namer candidate) :labelled nil))
@@ -93,7 +137,7 @@
          (view (fit-view camera (subject-vectors subject)
                          (list (+ x 34) (+ y 60) (- width 76) (- height 108))))
          (summary (grasp-summary subject)))
-    (draw-text summary (list (+ x 10) (+ y 41)) :class "soft")
+    (draw-text (fitting summary "soft" (- width 20)) (list (+ x 10) (+ y 41)) :class "soft")
     (draw-slot-axes camera candidate (list (+ x 40) (+ y height -40)))
     (occupy (list (+ x 2) (+ y height -78) 76 76))
     (draw-subject subject view)
@@ -103,9 +147,6 @@
                   collect (format nil "finger ~a on ~a" (finger-name contact)
                                   (funcall (subject-namer subject) (contact-face contact))))
             summary)))
-
-(defun grasp-names (knowledge)
-  (mapcar #'supergrip::grasp-name (knowledge-grasps knowledge)))
 
 (defparameter +grasp-key+
   '((key-contact 20 "contact of a finger") (key-hidden 20 "contact behind the box")
@@ -126,9 +167,9 @@
 
 (defun grasps-picture (knowledge)
   "Return the picture of all grasps of KNOWLEDGE."
-  (let* ((names (grasp-names knowledge))
+  (let* ((grasps (knowledge-grasps knowledge))
          (columns 3)
-         (rows (ceiling (1+ (length names)) columns))
+         (rows (ceiling (1+ (length grasps)) columns))
          (wide 330) (high 320)
          (width (+ 24 (* columns wide)))
          (words '()))
@@ -137,12 +178,12 @@
       (let ((picture
               (with-picture (width (+ 78 (* rows high)) "Grasp modes" "")
                 (draw-heading "Grasp modes" (list +scale-words+) width)
-                (loop for name in names
+                (loop for grasp in grasps
                       for i from 0
                       do (multiple-value-bind (x y) (cell i)
                            (draw-rectangle (+ x 3) y (- wide 6) (- high 8) "frame")
-                           (push (draw-grasp-cell name knowledge x y wide (- high 8)) words)))
-                (multiple-value-bind (x y) (cell (length names))
+                           (push (draw-grasp-cell grasp knowledge x y wide (- high 8)) words)))
+                (multiple-value-bind (x y) (cell (length grasps))
                   (draw-grasps-key (+ x 16) y)))))
         (setf (picture-description picture) (format nil "~{~a~^ ~}" (reverse words)))
         picture))))
@@ -150,4 +191,4 @@
 (defun draw-grasps (file &key (knowledge *knowledge*))
   "Draw all grasps of KNOWLEDGE, each on a reference box, into FILE, an SVG picture: the paper's
 Figure 1.  Only the data of a grasp are used, so a new one is drawn, too.  Returns FILE."
-  (save-picture (grasps-picture knowledge) file))
+  (drawing ("the grasp modes") (save-picture (grasps-picture knowledge) file)))

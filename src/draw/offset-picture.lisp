@@ -147,4 +147,4 @@ is narrower than the distance of the fingers' bases, the inner links reach down 
 (defun draw-offset (file &key (knowledge *knowledge*))
   "Draw what the offset of a grasp is, on two boxes too tall for the gripper of KNOWLEDGE, into
 FILE, an SVG picture: the paper's Figure 2.  KNOWLEDGE must have PINCH-2-PARALLEL.  Returns FILE."
-  (save-picture (offset-picture knowledge) file))
+  (drawing ("the offset") (save-picture (offset-picture knowledge) file)))

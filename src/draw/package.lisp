@@ -11,4 +11,6 @@
    ;; pictures of one plan
    #:draw-plan #:draw-quality
    ;; reports
-   #:report #:report-index))
+   #:report #:report-index
+   ;; what can't be drawn
+   #:drawing-error #:drawing-error-what #:drawing-error-reason))

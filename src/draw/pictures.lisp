@@ -41,19 +41,15 @@ well it does."
                (setf best camera most score)))
     (values best most)))
 
-(defun box-text (box)
-  "Return name and sizes of BOX for a heading."
-  (format nil "~@[~a, ~]~{~a~^ × ~} cm" (box-name box) (mapcar #'length-text (box-size box))))
-
 (defun quality-text (quality)
-  (format nil "Q = ~,3f" quality))
+  (format nil "Q = ~a" (index-text quality)))
 
 (defun matching-text (matching)
   (format nil "N1 N2 O1 O2 A1 A2 = ~{~a~^ ~}" matching))
 
 (defun weight-text (box)
   "Return the weight of BOX as its arrow is labelled, or NIL if it has none."
-  (and (plusp (box-weight box)) (format nil "weight ~a" (decimal (box-weight box) 3))))
+  (and (plusp (box-weight box)) (format nil "weight ~a" (quantity (box-weight box)))))
 
 (defun draw-heading (heading lines width)
   "Write HEADING and LINES at the top of a picture WIDTH wide."

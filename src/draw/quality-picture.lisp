@@ -48,8 +48,8 @@ ratio; LIMIT is the name of the limiting axis.  Returns the y below."
 
 (defun ratio-text (have need limiting)
   (cond ((zerop need) "not needed")
-        (t (format nil "~a / ~a = ~a~:[~; ◀~]" (decimal have 3)
-                   (decimal need 3) (decimal (/ have need) 3) limiting))))
+        (t (format nil "~a / ~a = ~a~:[~; ◀~]" (quantity have 4)
+                   (quantity need 4) (quantity (/ have need) 4) limiting))))
 
 (defun draw-candidate-quality (candidate plan place x y width)
   "Draw the bars of CANDIDATE, the PLACEth best."
@@ -70,7 +70,7 @@ ratio; LIMIT is the name of the limiting axis.  Returns the y below."
 
 (defun radius-text (name radius axis)
   (if radius
-      (format nil "~a = ~,3f, limited ~a" name radius axis)
+      (format nil "~a = ~a, limited ~a" name (index-text radius) axis)
       (format nil "~a: none needed" name)))
 
 (defun quality-words (candidate)
@@ -93,7 +93,7 @@ ratio; LIMIT is the name of the limiting axis.  Returns the y below."
                         "No grasp is possible")
                     (list (format nil "~a. Forces in finger forces, torques in finger force × cm, ~
                                        gamma ~a." (box-text (plan-box plan))
-                                  (decimal (plan-gamma plan))))
+                                  (quantity (plan-gamma plan))))
                     width)
       (loop for candidate in candidates
             for place from 1
@@ -104,4 +104,4 @@ ratio; LIMIT is the name of the limiting axis.  Returns the y below."
 (defun draw-quality (plan file &key (count 3))
   "Draw, for the COUNT best candidates of PLAN, what they have against what the task needs on all
 twelve axes, the limiting ones marked, into FILE, an SVG picture.  Returns FILE."
-  (save-picture (quality-picture plan count) file))
+  (drawing (plan) (save-picture (quality-picture plan count) file)))

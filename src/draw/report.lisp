@@ -91,19 +91,14 @@ forces in units of one finger’s greatest normal force, torques in their produc
 
 ;;; Words
 
-(defun list-text (items)
-  "Return ITEMS as \"a\", \"a and b\", or \"a, b and c\"."
-  (format nil "~{~#[~;~a~;~a and ~a~:;~@{~a~#[~; and ~:;, ~]~}~]~}" items))
-
 (defun page-title (plan)
   (let ((box (plan-box plan)))
-    (format nil "~a, ~{~a~^ × ~} cm" (or (box-name box) "A box")
-            (mapcar #'length-text (box-size box)))))
+    (if (box-name box) (box-text box) (format nil "A box, ~a" (box-text box)))))
 
 (defun times-text (kind radius axis)
   "Return how much a grasp has of KIND, RADIUS times what is needed, AXIS being the limit."
-  (format nil "~a: the grasp has ~,3f times what the task needs on the tightest axis, ~a."
-          kind radius axis))
+  (format nil "~a: the grasp has ~a times what the task needs on the tightest axis, ~a."
+          kind (index-text radius) axis))
 
 (defun fingers-words (subject)
   "Return which fingers are on which face."
@@ -127,10 +122,10 @@ forces in units of one finger’s greatest normal force, torques in their produc
                   (list (format nil "Hold it with ~a: ~a, the palm over ~a."
                                 (candidate-grasp best) (fingers-words subject)
                                 (surface-name (subject-palm subject)))
-                        (format nil "The quality index is ~,3f~@[; the next best, ~a~]."
-                                (candidate-quality best)
-                                (and next (format nil "~a, has ~,3f" (candidate-grasp next)
-                                                  (candidate-quality next))))
+                        (format nil "The quality index is ~a~@[; the next best, ~a~]."
+                                (index-text (candidate-quality best))
+                                (and next (format nil "~a, has ~a" (candidate-grasp next)
+                                                  (index-text (candidate-quality next)))))
                         (and (candidate-force-axis best)
                              (times-text "Forces" (candidate-force-radius best)
                                          (candidate-force-axis best)))
@@ -147,15 +142,14 @@ forces in units of one finger’s greatest normal force, torques in their produc
      (:caption "What was given")
      (:tbody
       (loop for (name value) in
-            `(("Size along X, Y, Z" ,(format nil "~{~a × ~a × ~a~} cm"
-                                             (mapcar #'length-text (box-size box))))
-              ("Weight" ,(format nil "~a finger forces" (decimal (box-weight box) 4)))
-              ("Friction u" ,(decimal (box-friction box) 4))
-              ("Soft finger v" ,(format nil "~a cm" (decimal (box-soft-friction box) 4)))
+            `(("Size along X, Y, Z" ,(size-text (box-size box)))
+              ("Weight" ,(format nil "~a finger forces" (quantity (box-weight box) 4)))
+              ("Friction u" ,(quantity (box-friction box) 4))
+              ("Soft finger v" ,(format nil "~a cm" (quantity (box-soft-friction box) 4)))
               ("Constrained faces" ,(if (box-constrained box)
                                         (list-text (box-constrained box))
                                         "none"))
-              ("Selection parameter γ" ,(decimal gamma 3)))
+              ("Selection parameter γ" ,(quantity gamma 4)))
             do (markup (:tr (:th :scope "row" (say "~a" name)) (:td (say "~a" value)))))))))
 
 (defun put-needs (box)
@@ -170,8 +164,8 @@ forces in units of one finger’s greatest normal force, torques in their produc
             for force in (box-force-needed box)
             for velocity in (box-velocity-needed box)
             do (markup (:tr (:th :scope "row" (say "~a" axis))
-                            (:td (say "~a" (decimal force 3)))
-                            (:td (say "~a" (decimal velocity 3))))))))))
+                            (:td (say "~a" (quantity force 4)))
+                            (:td (say "~a" (quantity velocity 4))))))))))
 
 ;;; Pictures that fit a telephone
 
@@ -265,7 +259,7 @@ needed."
                               (candidate-velocity-axis candidate))))))
 
 (defun radius-words (radius axis)
-  (and radius (format nil "~,3f, limited ~a" radius axis)))
+  (and radius (format nil "~a, limited ~a" (index-text radius) axis)))
 
 (defun put-candidates (plan)
   "Write the table of all candidates of PLAN, the possible ones first, the best on top."
@@ -283,7 +277,8 @@ needed."
                (:th :scope "row" (say "~a" (candidate-grasp candidate))
                     (:span :class "face" (say "~{~a~^ ~}" (candidate-matching candidate))))
                (:td :class "number"
-                    (say "~:[not possible~;~:*~,3f~]" (candidate-quality candidate)))
+                    (say "~:[not possible~;~:*~a~]" (and (candidate-quality candidate)
+                                                               (index-text (candidate-quality candidate)))))
                (:td (say "~a" (candidate-words candidate plan))))))))))
 
 ;;; Facts and rules
@@ -399,7 +394,11 @@ needed."
 (defun report (plan file)
   "Write a page about PLAN to FILE, HTML complete in itself: the box, the verdict in words,
 pictures, what would change the choice, all candidates with the reasons of those that failed, and
-what the rules found, each fact linked to the rule and to the facts that made it.  Needs no network and no script.  Returns FILE."
+what the rules found, each fact linked to the rule and to the facts that made it.  Needs
+no network and no script.  Returns FILE."
+  (drawing (plan) (write-page plan file)))
+
+(defun write-page (plan file)
   (with-page (file (format nil "SUPER-GRIP: ~a" (page-title plan)))
     (:header
      (:h1 (say "~a" (page-title plan)))
@@ -439,45 +438,69 @@ what the rules found, each fact linked to the rule and to the facts that made it
 
 (defun thumbnail (plan)
   "Return a small picture of PLAN without words."
-  (let* ((best (plan-best plan))
-         (subject (if best (grasp-subject best plan) (box-subject (plan-box plan))))
-         (camera (best-camera (list subject))))
-    (with-picture (260 200 (page-title plan)
-                           (if best
-                               (candidate-description best plan subject)
-                               (plan-reason plan)))
-      (draw-subject subject (fit-view camera (subject-vectors subject) '(14 14 232 172))
-                    :small t)
-      (place-labels '(2 2 256 196)))))
+  (drawing (plan)
+    (let* ((best (plan-best plan))
+           (subject (if best (grasp-subject best plan) (box-subject (plan-box plan))))
+           (camera (best-camera (list subject))))
+      (with-picture (260 200 (page-title plan)
+                             (if best
+                                 (candidate-description best plan subject)
+                                 (plan-reason plan)))
+        (draw-subject subject (fit-view camera (subject-vectors subject) '(14 14 232 172))
+                      :small t)
+        (place-labels '(2 2 256 196))))))
 
-(defun put-card (plan number)
+(defun verdict-text (plan)
+  (if (plan-best plan)
+      (candidate-title (plan-best plan))
+      "can’t be grasped"))
+
+(defun put-card (plan number problem)
+  "Write what the index says of PLAN, the NUMBERth; PROBLEM says why it has no page, or is NIL."
   (markup
-    (:li (:a :href (slug plan number)
-             (write-picture (thumbnail plan) *out* :inline t)
-             (:strong (say "~a" (page-title plan)))
-             (:br)
-             (say "~:[can’t be grasped~;~:*~a, Q = ~,3f~]" (plan-grasp plan)
-                  (plan-quality plan))))))
+    (:li (if problem
+             (markup (:p (:strong (say "~a" (page-title plan))) (:br)
+                         (say "~a" (verdict-text plan)) (:br)
+                         (say "No page: ~a." problem)))
+             (markup (:a :href (slug plan number)
+                         (write-picture (thumbnail plan) *out* :inline t)
+                         (:strong (say "~a" (page-title plan)))
+                         (:br)
+                         (say "~a" (verdict-text plan))))))))
+
+(defun page-problem (plan file)
+  "Write the page of PLAN to FILE, if that is not NIL.  Return NIL, or why it can't be drawn."
+  (handler-case (progn (thumbnail plan)
+                       (when file (report plan file))
+                       nil)
+    (drawing-error (condition) (princ-to-string condition))))
 
 (defun report-index (plans directory &key (pages t))
   "Write index.html into DIRECTORY: a thumbnail and the verdict of each of PLANS, in their order,
-each linked to its page; and, unless PAGES is NIL, these pages, too.  Returns the index's name."
-  (let ((directory (uiop:ensure-directory-pathname directory)))
-    (when pages
-      (loop for plan in plans
-            for number from 1
-            do (report plan (merge-pathnames (slug plan number) directory))))
-    (with-page ((merge-pathnames "index.html" directory) "SUPER-GRIP: all boxes")
-      (:header
-       (:h1 "All boxes")
-       (:p :class "verdict"
-           (say "~d box~:*~[es~;~:;es~], ~d can be grasped." (length plans)
-                (count :grasp plans :key #'plan-verdict))))
-      (:main
-       (:ul :class "cards"
-            (loop for plan in plans
-                  for number from 1
-                  do (put-card plan number)))))))
+each linked to its page; and, unless PAGES is NIL, these pages, too.  Where a page can't be drawn,
+the index says why.  Returns the index's name, and the number of pages that can't be drawn."
+  (let* ((directory (if (stringp directory)
+                        (path-of (format nil "~a/" directory))
+                        (uiop:ensure-directory-pathname directory)))
+         (problems (loop for plan in plans
+                         for number from 1
+                         collect (page-problem plan (and pages (merge-pathnames
+                                                                (slug plan number) directory)))))
+         (lost (count-if #'identity problems)))
+    (values
+     (with-page ((merge-pathnames "index.html" directory) "SUPER-GRIP: all boxes")
+       (:header
+        (:h1 "All boxes")
+        (:p :class "verdict"
+            (say "~d box~:*~[es~;~:;es~], ~d can be grasped~[~:;; ~:*~d page~:p can’t be drawn~]."
+                 (length plans) (count :grasp plans :key #'plan-verdict) lost)))
+       (:main
+        (:ul :class "cards"
+             (loop for plan in plans
+                   for problem in problems
+                   for number from 1
+                   do (put-card plan number problem)))))
+     lost)))
 
 ;;; The batch finds it here.
 

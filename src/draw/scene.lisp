@@ -435,10 +435,13 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
 (defun view-description (view)
   "Return what VIEW is, in words: enough to find where any place of the box frame is seen."
   (let ((camera (view-camera view)))
-    (format nil "Seen from azimuth ~d°, elevation ~d°, ~a above; ~,5f units a cm; box centre at ~
-                 (~,3f, ~,3f)."
-            (camera-azimuth camera) (camera-elevation camera) (surface-name (camera-top camera))
-            (view-scale view) (first (view-origin view)) (second (view-origin view)))))
+    (flet ((plain (number digits) (fixed number digits #\-)))
+      (format nil "Seen from azimuth ~d°, elevation ~d°, ~a above; ~a units a cm; box centre at ~
+                   (~a, ~a)."
+              (camera-azimuth camera) (camera-elevation camera)
+              (surface-name (camera-top camera))
+              (plain (view-scale view) (max 0 (- 6 (magnitude (view-scale view)))))
+              (plain (first (view-origin view)) 3) (plain (second (view-origin view)) 3)))))
 
 ;;; Furniture
 

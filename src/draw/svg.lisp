@@ -93,30 +93,12 @@ the mark-up of what it shows."
 
 (defun px (number)
   "Return NUMBER as the text of a coordinate, rounded to 1/100."
-  (multiple-value-bind (whole part) (truncate (round (* 100 number)) 100)
+  (multiple-value-bind (whole part) (truncate (round (* 100 (check-coordinate number))) 100)
     (format nil "~:[~;-~]~d~[~:;.~:*~2,'0d~]" (or (minusp whole) (minusp part)) (abs whole)
             (abs part))))
 
 (defun points-text (points)
   (format nil "~{~a~^ ~}" (loop for (x y) in points collect (format nil "~a,~a" (px x) (px y)))))
-
-(defun decimal (number &optional (digits 2))
-  "Return NUMBER for a reader: DIGITS decimals at most, and a true minus sign."
-  (let* ((text (format nil "~,vf" digits (abs number)))
-         (short (if (find #\. text) (string-right-trim "." (string-right-trim "0" text)) text))
-         (short (cond ((string= short "") "0")
-                      ((char= (char short 0) #\.) (concatenate 'string "0" short))
-                      (t short))))
-    (if (and (minusp number) (string/= short "0"))
-        (format nil "~c~a" (code-char #x2212) short)
-        short)))
-
-(defun length-text (number)
-  "Return NUMBER, a length in cm, for a reader: three significant digits."
-  (decimal number (cond ((zerop number) 0)
-                        ((< (abs number) 0.095d0) 3)
-                        ((< (abs number) 100) 2)
-                        (t 0))))
 
 ;;; Elements
 
@@ -181,12 +163,15 @@ the mark-up of what it shows."
 
 (defun fitting (text class width)
   "Return TEXT, cut if it is wider than WIDTH."
-  (if (<= (text-width text class) width)
-      text
-      (loop for end from (length text) downto 0
-            for cut = (format nil "~a…" (string-right-trim " " (subseq text 0 end)))
-            when (<= (text-width cut class) width) return cut
-            finally (return "…"))))
+  ;; No character is narrower than 1/3 of the font's size: what is beyond that is not looked at.
+  (let ((text (subseq text 0 (min (length text)
+                                  (ceiling (* 3 (max 1 width)) (class-size class))))))
+    (loop for end from (length text) downto 0
+          for cut = (if (= end (length text))
+                        text
+                        (format nil "~a…" (string-right-trim " " (subseq text 0 end))))
+          when (<= (text-width cut class) width) return cut
+          finally (return "…"))))
 
 (defun filled (text class width)
   "Return the list of the lines of TEXT, none wider than WIDTH if its words allow it."
@@ -242,15 +227,33 @@ the style and the patterns."
     (format stream "<rect class=\"paper\" width=\"~a\" height=\"~a\"/>~%~a~%</svg>~%"
             width height (picture-body picture))))
 
+(defun path-of (file)
+  "Return the pathname of FILE, a pathname, or a string that is taken as it stands."
+  (if (stringp file) (uiop:parse-native-namestring file) file))
+
+(defun call-writing (file function)
+  "Call FUNCTION with a stream of UTF-8 text, and put what it wrote in the place of FILE: nobody sees
+a half of it, and a link that stands there is replaced, not followed."
+  (let* ((path (merge-pathnames (path-of file)))
+         (new (make-pathname :name (format nil "~a.new" (pathname-name path)) :defaults path))
+         (done nil))
+    (ensure-directories-exist path)
+    (ignore-errors (delete-file new))
+    (unwind-protect
+         (progn
+           (with-open-file (stream new :direction :output :if-exists :error
+                                       :external-format :utf-8)
+             (let ((*pictures-written* 0))
+               (funcall function stream)))
+           (rename-file new path)
+           (setf done t))
+      (unless done (ignore-errors (delete-file new))))))
+
 (defmacro with-output-to ((stream file) &body body)
   "Run BODY with STREAM bound to FILE, opened for UTF-8 text, and return FILE."
   (let ((name (gensym "FILE")))
     `(let ((,name ,file))
-       (ensure-directories-exist ,name)
-       (with-open-file (,stream ,name :direction :output :if-exists :supersede
-                                      :external-format :utf-8)
-         (let ((*pictures-written* 0) (*print-pretty* nil))
-           ,@body))
+       (call-writing ,name (lambda (,stream) ,@body))
        ,name)))
 
 (defun save-picture (picture file)
