@@ -172,7 +172,7 @@
     (handler-bind ((warning #'muffle-warning))
       (supergrip:load-knowledge :grasps grasps))))
 
-(defun grasp-text (name conditions &rest contacts)
+(defun own-grasp-text (name conditions &rest contacts)
   (format nil "(SETQ ~a '(USED-SURFACES (N1 N2 A1 A2) CONDITIONS (~a) OFFSET (LIST 0 0 0 0 0 0)
 WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name conditions contacts))
 
@@ -210,17 +210,17 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                                              ("STRIP" "((DIST '(N1 N2)) < FINGER-WIDTH) AND ((DIST '(A1 A2)) > DIST-PINCH)")
                                              ("SMOOTH" "U < 0.5")
                                              ("LYING" "(CONSTRAINED O1)"))
-                                        collect (grasp-text name conditions "(N1 0 0)" "(N2 0 0)")))))))
+                                        collect (own-grasp-text name conditions "(N1 0 0)" "(N2 0 0)")))))))
     (dolist (grasp (supergrip:knowledge-grasps knowledge))
       (is (supergrip-draw::reference-candidate grasp knowledge) "~a" grasp))))
 
 (test any-number-of-fingers-is-drawn
   (let ((knowledge (knowledge-with
                     (format nil "~a~a~a"
-                            (grasp-text "FOUR" "T" "(N1 0 0)" "(N1 1/2 0)" "(N1 0 1/2)" "(N1 1/2 1/2)")
-                            (grasp-text "SAME" "T" "(N1 0 0)" "(N1 0 0)" "(N1 0 0)" "(N1 0 0)"
+                            (own-grasp-text "FOUR" "T" "(N1 0 0)" "(N1 1/2 0)" "(N1 0 1/2)" "(N1 1/2 1/2)")
+                            (own-grasp-text "SAME" "T" "(N1 0 0)" "(N1 0 0)" "(N1 0 0)" "(N1 0 0)"
                                         "(N1 0 0)" "(N2 0 0)" "(A1 0 0)" "(A2 0 0)")
-                            (apply #'grasp-text "MANY" "T"
+                            (apply #'own-grasp-text "MANY" "T"
                                    (loop for i below 16
                                          collect (format nil "(N1 ~a ~a)" (/ i 16) (/ (mod i 4) 4))))))))
     (with-folder (folder)
