@@ -27,11 +27,12 @@
         collect size
         when next collect (/ (+ size next) 2)))
 
-(defun shape-cost (size most)
+(defun shape-cost (size usual)
   "Return how far SIZE, three numbers, the greatest first, is from what is seen best: a box not too
-long, and small, so that the fingers are apart.  MOST is the greatest size that there is."
+long, neither too large nor too small for the fingers; USUAL is a size in the middle of all."
   (destructuring-bind (long middle short) size
-    (+ (abs (- (/ long short) 1.6d0)) (abs (- (/ middle short) 1.15d0)) (/ long most))))
+    (+ (abs (- (/ long short) 1.6d0)) (abs (- (/ middle short) 1.15d0))
+       (abs (- (/ long usual) 1)))))
 
 (defun reference-sizes (sizes)
   "Return all triples that are made of SIZES, ascending, the best to look at first."
@@ -39,7 +40,7 @@ long, and small, so that the fingers are apart.  MOST is the greatest size that 
                      append (loop for (middle . rest) on (cons long others)
                                   append (loop for short in (cons middle rest)
                                                collect (list long middle short))))
-               #'< :key (lambda (size) (shape-cost size (first (last sizes))))))
+               #'< :key (lambda (size) (shape-cost size (nth (floor (length sizes) 2) sizes)))))
 
 (defun all-reference-sizes (grasp knowledge)
   "Return the sizes of the boxes on which GRASP of KNOWLEDGE is to be tried, in that order."

@@ -3,7 +3,10 @@
 (in-package :supergrip-draw)
 
 (defvar *obstacles* '() "Rectangles (x y width height) that no label may touch.")
-(defvar *strokes* '() "Pairs of points: lines that labels had better not cross.")
+(defvar *words* '() "Those of them that are words, which no leader may cut.")
+(defvar *areas* '() "Convex outlines that no label may touch.")
+(defvar *strokes* '() "Lines that labels had better not cross: two ends, and half the width.")
+(defvar *leaders* '() "The same of lines from labels to what they name.")
 (defvar *labels* '() "Labels that wait for their place, the latest first.")
 
 (defun occupy (rectangle)
@@ -14,9 +17,13 @@
   "Keep the place around POINT clear of labels."
   (occupy (list (- (first point) radius) (- (second point) radius) (* 2 radius) (* 2 radius))))
 
-(defun note-strokes (points)
-  "Have labels avoid the line through POINTS."
-  (loop for (a b) on points while b do (push (list a b) *strokes*)))
+(defun occupy-area (outline)
+  "Keep the convex OUTLINE clear of labels."
+  (push outline *areas*))
+
+(defun note-strokes (points &optional (width 1))
+  "Have labels avoid the line of WIDTH through POINTS."
+  (loop for (a b) on points while b do (push (list a b (/ width 2)) *strokes*)))
 
 (defun overlap-p (r s)
   "True if the rectangles R and S overlap."
@@ -34,22 +41,47 @@
   (destructuring-bind (x y width height) rectangle
     (list (list x y) (list (+ x width) y) (list (+ x width) (+ y height)) (list x (+ y height)))))
 
-(defun crossings (rectangle)
-  "Return how many of the noted lines cross RECTANGLE."
-  (let ((outline (outline-of rectangle)))
-    (count-if (lambda (stroke) (inside-part (first stroke) (second stroke) outline)) *strokes*)))
+(defun grown (rectangle more)
+  "Return RECTANGLE with MORE on each side."
+  (destructuring-bind (x y width height) rectangle
+    (list (- x more) (- y more) (+ width (* 2 more)) (+ height (* 2 more)))))
+
+(defun segment-meets-p (a b rectangle)
+  "True if the line from A to B meets RECTANGLE."
+  (inside-part a b (outline-of rectangle)))
+
+(defun crossings (rectangle &optional (strokes *strokes*))
+  "Return how many of STROKES cross RECTANGLE."
+  (loop for (a b half) in strokes
+        count (segment-meets-p a b (grown rectangle (1+ half)))))
+
+(defun outlines-meet-p (outline other)
+  "True if two convex outlines have a point in common."
+  (flet ((meet-p (one two)
+           (loop for (a b) on (append one (list (first one)))
+                 while b thereis (inside-part a b two))))
+    (or (meet-p outline other) (meet-p other outline))))
+
+(defun free-p (rectangle)
+  "True if RECTANGLE touches nothing that is to be kept clear."
+  (and (notany (lambda (other) (overlap-p rectangle other)) *obstacles*)
+       (zerop (crossings rectangle *leaders*))
+       (let ((outline (outline-of rectangle)))
+         (notany (lambda (area) (outlines-meet-p outline area)) *areas*))))
 
 ;;; Labels are asked for while a view is drawn, and placed when all of it is known.
 
 (defun ask-for-label (text point &key (class "plain") (away 8) optional leader toward)
-  "Have TEXT placed near POINT, AWAY units or more from it, TOWARD a direction in the picture rather
-than others.  If it is OPTIONAL it is left out where there is no room close by; a LEADER joins it
+  "Have TEXT placed near POINT, or near one of a list of points, AWAY units or more from it, TOWARD a
+direction in the picture rather than others.  If it is OPTIONAL it is left out where there is no room close by; a LEADER joins it
 to the point if it is far."
-  (push (list text point class away optional leader toward) *labels*))
+  (push (list text (if (consp (first point)) point (list point))
+              class away optional leader toward)
+        *labels*))
 
 (defparameter +directions+
-  (loop for step below 16
-        collect (list (cos (* step pi 1/8)) (sin (* step pi 1/8))))
+  (loop for step below 24
+        collect (list (cos (* step pi 1/12)) (sin (* step pi 1/12))))
   "Directions in a picture in which a label may stand from its point.")
 
 (defun label-rectangle (text point class direction distance)
@@ -59,42 +91,82 @@ to the point if it is far."
          (y (+ (second point) (* distance (second direction)) (* 1/2 height (second direction)))))
     (list (- x (/ width 2)) (- y (/ height 2)) width height)))
 
-(defun best-place (text point class away area toward reach)
-  "Return the best rectangle for TEXT in AREA that touches no obstacle, or NIL."
-  (let ((best nil) (least nil))
-    (loop for distance from away to reach by 6
-          until (and best (< least (* 1.1 (- distance away))))
-          do (dolist (direction +directions+)
-               (let ((place (label-rectangle text point class direction distance)))
-                 (when (and (within-p place area)
-                            (notany (lambda (other) (overlap-p place other)) *obstacles*))
-                   (let ((cost (+ (* 1.1 (- distance away)) (* 30 (crossings place))
-                                  (if toward
-                                      (* 12 (- 1 (reduce #'+ (mapcar #'* direction toward))))
-                                      0))))
-                     (when (or (null least) (< cost least))
-                       (setf best place least cost)))))))
-    best))
-
-(defun put-label (text place class)
-  (destructuring-bind (x y width height) place
-    (when (plusp (crossings place))
-      (draw-rectangle x y width height "pad"))
-    (draw-text text (list (+ x (/ width 2)) (+ y (* 0.76 height))) :class class :anchor :middle)))
-
 (defun nearest-in (point rectangle)
   "Return the point of RECTANGLE that is nearest to POINT."
   (destructuring-bind (x y width height) rectangle
     (list (max x (min (first point) (+ x width))) (max y (min (second point) (+ y height))))))
 
+(defun leader-of (point place away)
+  "Return the line from POINT to a label at PLACE, or NIL if the label is so near that it needs none."
+  (let ((end (nearest-in point place)))
+    (and (> (distance point end) (+ away 8))
+         (list (along point end (/ 3 (distance point end))) end))))
+
+(defun leader-cost (line)
+  "Return the cost of the leader LINE, or NIL if it would cut a word."
+  (destructuring-bind (a b) line
+    (unless (some (lambda (word) (segment-meets-p a b (grown word 2))) *words*)
+      (+ 10
+         (* 60 (loop for (p q) in *leaders* count (segments-cross-p a b p q)))
+         (* 8 (loop for (p q) in *strokes* count (segments-cross-p a b p q)))
+         (* 25 (loop for area in *areas* count (inside-part a b area)))))))
+
+(defun segments-cross-p (a b p q)
+  "True if the segments from A to B and from P to Q cross."
+  (and (minusp (* (turn a b p) (turn a b q)))
+       (minusp (* (turn p q a) (turn p q b)))))
+
+(defun place-cost (place point away distance direction toward leader)
+  "Return the cost of PLACE for a label of POINT, or NIL if it can't stand there."
+  (let* ((line (and leader (leader-of point place away)))
+         (more (if line (leader-cost line) 0)))
+    (and more
+         (+ (* 1.1 (- distance away)) more (* 400 (crossings place))
+            (if toward
+                (* 12 (- 1 (reduce #'+ (mapcar #'* direction toward))))
+                0)))))
+
+(defun best-place (label area)
+  "Return the best rectangle for LABEL in AREA and the point that it is near, or NIL if it can stand
+nowhere."
+  (destructuring-bind (text points class away optional leader toward) label
+    (let ((best nil) (least nil) (reach (cond (optional 30) (leader 260) (t 120))))
+      (loop for distance from away to reach by 5
+            until (and best (< least (* 1.1 (- distance away))))
+            do (dolist (point points)
+                 (dolist (direction +directions+)
+                   (let ((place (label-rectangle text point class direction distance)))
+                     (when (and (within-p place area) (free-p place))
+                       (let ((cost (place-cost place point away distance direction toward
+                                               leader)))
+                         (when (and cost (or (null least) (< cost least)))
+                           (setf best (list place point) least cost))))))))
+      ;; A word that a line would strike through is left out, but for the names of the fingers.
+      (and best (or (< least 400) (string= class "bold")) (values-list best)))))
+
+(defun put-label (text place class)
+  (destructuring-bind (x y width height) place
+    (draw-text text (list (+ x (/ width 2)) (+ y (* 0.76 height))) :class class :anchor :middle)))
+
+(defun place-label (label area)
+  "Place LABEL in AREA, or leave it out if there is no room."
+  (destructuring-bind (text points class away optional leader toward) label
+    (declare (ignore points optional toward))
+    (multiple-value-bind (place point) (best-place label area)
+      (when place
+        (let ((line (and leader (leader-of point place away))))
+          (when line
+            (draw-line (first line) (second line) "thin")
+            (push (append line '(1)) *leaders*)))
+        (put-label text place class)))))
+
+(defun label-weight (label)
+  (destructuring-bind (text points class &rest rest) label
+    (declare (ignore points rest))
+    (+ (text-width text class) (if (string= class "bold") 1000 0))))
+
 (defun place-labels (area)
-  "Place all labels asked for, in the order in which they were, in the rectangle AREA."
-  (loop for (text point class away optional leader toward) in (reverse *labels*)
-        do (let* ((text (fitting text class (third area)))
-                  (place (best-place text point class away area toward (if optional 30 400))))
-             (when place
-               (let ((end (nearest-in point place)))
-                 (when (and leader (> (distance point end) (+ away 12)))
-                   (draw-line point end "thin")))
-               (put-label text place class))))
-  (setf *labels* '()))
+  "Place all labels asked for in the rectangle AREA: bold ones first, and then the widest."
+  (loop for (text . rest) in (stable-sort (reverse *labels*) #'> :key #'label-weight)
+        do (place-label (cons (fitting text (second rest) (third area)) rest) area))
+  (setf *labels* '() *areas* '() *strokes* '() *leaders* '()))

@@ -27,11 +27,17 @@
           (six-of #'supergrip::shift-velocity (supergrip::%box-velocity (plan-box plan))
                   candidate)))
 
-(defun draw-rows (rows limit x y width)
+(defun greatest-of (function candidates plan)
+  "Return the greatest number in the rows that FUNCTION makes of CANDIDATES of PLAN."
+  (loop for candidate in candidates
+        maximize (reduce #'max (mapcar (lambda (row) (apply #'max row))
+                                       (funcall function candidate plan)))))
+
+(defun draw-rows (rows limit most x y width)
   "Draw one row for each axis: a bar for what there is, a thick mark for what is needed, and their
-ratio; LIMIT is the name of the limiting axis.  Returns the y below."
-  (let* ((most (reduce #'max (mapcar #'first rows)))
-         (most (max most (reduce #'max (mapcar #'second rows)) 1d-9))
+ratio; LIMIT is the name of the limiting axis, MOST the number at the end of the scale.  Returns the
+y below."
+  (let* ((most (max most 1d-9))
          (left (+ x 66)) (room (- width 66 156)))
     (flet ((x-of (number) (+ left (* room (/ (max 0 number) most)))))
       (loop for (have need) in rows
@@ -46,13 +52,16 @@ ratio; LIMIT is the name of the limiting axis.  Returns the y below."
                           (list (+ left room 10) (+ top 14)) :class (if limiting "bold" "soft"))))
     (+ y (* 6 24))))
 
+(defun ratio-number (number)
+  (if (< 1d-3 (abs number) 1d7) (decimal number 3) (quantity number 3)))
+
 (defun ratio-text (have need limiting)
   (cond ((zerop need) "not needed")
         (t (format nil "~a / ~a = ~a~:[~; ◀~]" (quantity have 4)
-                   (quantity need 4) (quantity (/ have need) 4) limiting))))
+                   (quantity need 4) (ratio-number (/ have need)) limiting))))
 
-(defun draw-candidate-quality (candidate plan place x y width)
-  "Draw the bars of CANDIDATE, the PLACEth best."
+(defun draw-candidate-quality (candidate candidates plan place x y width)
+  "Draw the bars of CANDIDATE, the PLACEth best, in the scale of all CANDIDATES."
   (draw-text (fitting (format nil "~d  ~a" place (candidate-title candidate)) "bold" width)
              (list x (+ y 16)) :class "bold")
   (draw-text (fitting (matching-text (candidate-matching candidate)) "soft" width)
@@ -61,12 +70,12 @@ ratio; LIMIT is the name of the limiting axis.  Returns the y below."
                           (candidate-force-axis candidate))
              (list x (+ y 66)))
   (let ((below (draw-rows (force-rows candidate plan) (candidate-force-axis candidate)
-                          x (+ y 76) width)))
+                          (greatest-of #'force-rows candidates plan) x (+ y 76) width)))
     (draw-text (radius-text "Velocities, u_t" (candidate-velocity-radius candidate)
                             (candidate-velocity-axis candidate))
                (list x (+ below 26)))
     (draw-rows (velocity-rows candidate plan) (candidate-velocity-axis candidate)
-               x (+ below 36) width)))
+               (greatest-of #'velocity-rows candidates plan) x (+ below 36) width)))
 
 (defun radius-text (name radius axis)
   (if radius
@@ -83,9 +92,11 @@ ratio; LIMIT is the name of the limiting axis.  Returns the y below."
 (defun quality-picture (plan count)
   "Return the picture of what the COUNT best candidates of PLAN have against what is needed."
   (let* ((candidates (best-candidates plan count))
-         (wide 380)
-         (width (max 860 (+ 24 (* wide (length candidates))))))
-    (with-picture (width 530
+         (wide 380) (high 426)
+         (columns (max 2 (min 3 (length candidates))))
+         (rows (max 1 (ceiling (length candidates) columns)))
+         (width (max 860 (+ 24 (* wide columns)))))
+    (with-picture (width (+ 104 (* high rows))
                    (format nil "Have against need, ~a" (box-text (plan-box plan)))
                    (format nil "~:[No grasp is possible.~;~:*~{~a~^ ~}~]"
                            (mapcar #'quality-words candidates)))
@@ -97,9 +108,10 @@ ratio; LIMIT is the name of the limiting axis.  Returns the y below."
                     width)
       (loop for candidate in candidates
             for place from 1
-            for x from 24 by wide
-            do (draw-candidate-quality candidate plan place x 76 (- wide 30)))
-      (draw-key 24 508 (- width 48) :signs +quality-key+))))
+            do (multiple-value-bind (row column) (floor (1- place) columns)
+                 (draw-candidate-quality candidate candidates plan place (+ 24 (* column wide))
+                                         (+ 76 (* row high)) (- wide 30))))
+      (draw-key 24 (+ 82 (* high rows)) (- width 48) :signs +quality-key+))))
 
 (defun draw-quality (plan file &key (count 3))
   "Draw, for the COUNT best candidates of PLAN, what they have against what the task needs on all

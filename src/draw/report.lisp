@@ -2,63 +2,7 @@
 
 (in-package :supergrip-draw)
 
-(defparameter +page-style+ "
-:root { color-scheme: light dark; --ink: #1a1a1a; --soft: #565656; --paper: #ffffff;
-  --line: #d4d4cf; --wash: #f6f6f4; --link: #0b4f8a }
-@media (prefers-color-scheme: dark) { :root { --ink: #eceff1; --soft: #b4bcc3; --paper: #15181b;
-  --line: #3c4248; --wash: #1d2125; --link: #8cc4f5 } }
-* { box-sizing: border-box }
-body { margin: 0; background: var(--paper); color: var(--ink);
-  font: 16px/1.5 Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif }
-header, main, footer { max-width: 1120px; margin: 0 auto; padding: 0 20px }
-header { padding-top: 28px }
-h1 { font-size: 28px; line-height: 1.2; margin: 0 0 8px; overflow-wrap: anywhere }
-h2 { font-size: 20px; margin: 44px 0 10px; padding-top: 10px; border-top: 1px solid var(--line) }
-h3 { font-size: 16px; margin: 24px 0 6px }
-p, dl, ol, ul, table { margin: 0 0 14px }
-.verdict { font-size: 18px; max-width: 46em }
-.soft { color: var(--soft) }
-a { color: var(--link) }
-figure { margin: 0 }
-figure svg { width: 100%; height: auto; display: block; border: 1px solid var(--line) }
-figcaption { color: var(--soft); font-size: 14px; padding-top: 4px }
-.hand { display: grid; gap: 16px; grid-template-columns: 1fr }
-.row { display: grid; gap: 16px; grid-template-columns: 1fr }
-.pair { display: grid; gap: 8px 48px; grid-template-columns: 1fr; align-items: start }
-.hand, .row { margin-bottom: 14px }
-.hand p { margin: 10px 0 }
-.key { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: 4px 22px;
-  color: var(--soft); font-size: 14px }
-.key svg { vertical-align: middle }
-@media (min-width: 760px), print {
-  .hand { grid-template-columns: 2fr 1fr; grid-template-rows: auto auto auto }
-  .hand .main { grid-row: 1 / span 3 }
-  .pair { grid-template-columns: 1fr 1fr }
-  .row { grid-template-columns: repeat(3, 1fr) } }
-table { border-collapse: collapse; width: 100%; font-size: 15px }
-caption { text-align: left; color: var(--soft); padding-bottom: 6px }
-th, td { text-align: left; vertical-align: top; padding: 6px 10px 6px 0;
-  border-bottom: 1px solid var(--line); overflow-wrap: anywhere }
-td.number { font-variant-numeric: tabular-nums; white-space: nowrap }
-tbody th { font-weight: bold }
-.face { font-weight: normal; color: var(--soft); display: block; font-size: 14px }
-.best td, .best th { background: var(--wash) }
-pre { background: var(--wash); padding: 10px 12px; margin: 0 0 10px; font-size: 13px;
-  line-height: 1.45; white-space: pre-wrap; overflow-wrap: anywhere }
-.facts { padding-left: 1.6em }
-.facts li { margin-bottom: 8px }
-:target { background: var(--wash); outline: 2px solid var(--link) }
-footer { color: var(--soft); font-size: 14px; padding: 32px 20px 40px }
-.cards { display: grid; gap: 20px; grid-template-columns: repeat(auto-fill, minmax(250px, 1fr));
-  list-style: none; padding: 0 }
-.cards a { display: block; color: inherit; text-decoration: none }
-.cards a:hover strong, .cards a:focus strong { text-decoration: underline }
-.cards svg { width: 100%; height: auto; display: block; border: 1px solid var(--line) }
-.cards strong { color: var(--link); overflow-wrap: anywhere }
-@media print { body { font-size: 11pt } header, main, footer { max-width: none; padding: 0 }
-  h2 { break-after: avoid } figure, tr, li, pre { break-inside: avoid }
-  a { color: inherit } }
-" "What pages look like.")
+(defparameter +page-style+ (text-of-file "page.css") "What pages look like.")
 
 (defmacro say (control &rest arguments)
   "Write text made by CONTROL and ARGUMENTS into the page, escaped."
@@ -133,6 +77,25 @@ forces in units of one finger’s greatest normal force, torques in their produc
                              (times-text "Velocities" (candidate-velocity-radius best)
                                          (candidate-velocity-axis best)))))))))
 
+(defun weak-text (kind radius)
+  "Return what a RADIUS below 1 of KIND means, or NIL for one that is not below."
+  (and radius (< radius 1)
+       (format nil "~a: ~a is below 1, so the grasp can’t do all that the task may need; it can do ~
+                    ~a of it in the worst direction." kind (index-text radius)
+               (index-text radius))))
+
+(defun put-meaning (plan)
+  "Write in plain words what the quality index of PLAN and its radii mean."
+  (let ((best (plan-best plan)))
+    (when best
+      (markup
+        (:p :class "soft"
+            (say "The quality index Q compares the grasps of one task: the higher is the better.  It ~
+                  is neither a percentage nor a probability, and says nothing across tasks.  A radius ~
+                  of 1 is exactly enough; above 1 there is something to spare.~@[  ~a~]~@[  ~a~]"
+                 (weak-text "Forces" (candidate-force-radius best))
+                 (weak-text "Velocities" (candidate-velocity-radius best))))))))
+
 ;;; The box
 
 (defun put-given (box gamma)
@@ -187,8 +150,16 @@ forces in units of one finger’s greatest normal force, torques in their produc
   (with-picture (440 370 title description)
     (draw-main-view subject '(6 6 428 358))))
 
+(defparameter +flat-room+ '(64 30 216 150) "Where a flat view of the page has box and hand.")
+
+(defun flat-scale (subject)
+  "Return the scale in which SUBJECT is seen whole from each of the three sides."
+  (loop for (azimuth elevation) in +flat-views+
+        minimize (view-scale (fit-view (flat-camera azimuth elevation) (subject-vectors subject)
+                                       +flat-room+))))
+
 (defun flat-picture (subject index)
-  "Return SUBJECT seen from one of the three sides."
+  "Return SUBJECT seen from one of the three sides, all in one scale."
   (destructuring-bind (azimuth elevation caption names) (nth index +flat-views+)
     (let ((camera (flat-camera azimuth elevation)) (area '(2 2 296 196)))
       (with-picture (300 200 (format nil "Seen ~a" caption)
@@ -196,7 +167,8 @@ forces in units of one finger’s greatest normal force, torques in their produc
         (draw-text caption '(10 20) :class "soft")
         (draw-axes camera '(20 176) names 20)
         (occupy '(2 140 56 58))
-        (draw-subject subject (fit-view camera (subject-vectors subject) '(64 30 216 150))
+        (draw-subject subject (fit-view camera (subject-vectors subject) +flat-room+
+                                         (flat-scale subject))
                       :small t)
         (place-labels area)))))
 
@@ -223,7 +195,8 @@ forces in units of one finger’s greatest normal force, torques in their produc
 needed."
   (let* ((candidates (best-candidates plan 3))
          (subjects (loop for candidate in candidates collect (grasp-subject candidate plan)))
-         (camera (best-camera subjects)))
+         (camera (best-camera subjects))
+         (scale (cell-scale camera subjects 366 364)))
     (markup
       (:h3 "How they hold it")
       (:div :class "row"
@@ -233,15 +206,15 @@ needed."
                   do (put-figure
                       (with-picture (366 372 (candidate-title candidate)
                                              (candidate-description candidate plan subject))
-                        (draw-session-cell candidate subject place camera 0 4 366 364))
+                        (draw-session-cell candidate subject place camera scale 0 4 366 364))
                       nil)))
       (:h3 "What they have, against what the task needs")
       (:div :class "row"
             (loop for candidate in candidates
                   for place from 1
                   do (put-figure
-                      (with-picture (374 410 (candidate-title candidate) (quality-words candidate))
-                        (draw-candidate-quality candidate plan place 12 12 350))
+                      (with-picture (374 434 (candidate-title candidate) (quality-words candidate))
+                        (draw-candidate-quality candidate candidates plan place 12 12 350))
                       nil)))
       (put-key +quality-key+))))
 
@@ -264,7 +237,7 @@ needed."
 (defun put-candidates (plan)
   "Write the table of all candidates of PLAN, the possible ones first, the best on top."
   (markup
-    (:table
+    (:table :class "candidates"
      (:caption (say "~d tried, ~d possible. A candidate is a grasp in one matching; faces in the ~
                      order N1 N2 O1 O2 A1 A2." (length (plan-candidates plan))
                     (length (plan-possible plan))))
@@ -402,7 +375,8 @@ no network and no script.  Returns FILE."
   (with-page (file (format nil "SUPER-GRIP: ~a" (page-title plan)))
     (:header
      (:h1 (say "~a" (page-title plan)))
-     (:p :class "verdict" (say "~{~a~^ ~}" (verdict-words plan))))
+     (:p :class "verdict" (say "~{~a~^ ~}" (verdict-words plan)))
+     (put-meaning plan))
     (:main
      (:h2 (say "~:[The box~;The grasp~]" (plan-best plan)))
      (put-hand plan)

@@ -10,6 +10,8 @@
 (defvar *view* nil "The view being drawn.")
 (defvar *small* nil "True in small views, which have fewer words.")
 
+(defvar *crowded* nil "True if contacts are so near that their signs must be small.")
+
 (defvar *face-names* '() "Names of faces and their rectangles, to be written if nothing is there.")
 
 (defun at (vector) "Return the point of VECTOR in the view." (project *view* vector))
@@ -27,7 +29,7 @@
     (when (= 1 (face-turned face))
       (let ((outline (mapcar #'at (face-corners face low high))))
         (draw-polygon outline class)
-        (note-strokes outline)
+        (note-strokes (append outline (list (first outline))))
         (when hatched (draw-hatching outline))))))
 
 (defun draw-environment (subject)
@@ -189,7 +191,7 @@ box as seen edge-on, so that the box can't hide it."
       (let ((run '()))
         (flet ((end-run ()
                  (when (rest run)
-                   (note-strokes run)
+                   (note-strokes run 7)
                    (draw-finger-line run))
                  (setf run '())))
           (loop for (a b) on (shortened-path contact)
@@ -201,7 +203,7 @@ box as seen edge-on, so that the box can't hide it."
                        (progn
                          (end-run)
                          (when (eq where :behind)
-                           (note-strokes (list (at a) (at b)))
+                           (note-strokes (list (at a) (at b)) 7)
                            (draw-behind (at a) (at b) outline)))))
           (end-run))))))
 
@@ -230,12 +232,13 @@ box as seen edge-on, so that the box can't hide it."
                (across (list (/ (- (second base) (second apex)) length)
                              (/ (- (first apex) (first base)) length)))
                (width (* 0.36 (tip-size))))
+          (note-strokes (list apex back) (* 2 width))
           (draw-polygon (list apex
                               (mapcar (lambda (b c) (+ b (* width c))) back across)
                               (mapcar (lambda (b c) (- b (* width c))) back across))
                         (if hidden "tip-hidden" "tip"))
-          (draw-circle apex (if *small* 2.2 3) (if hidden "contact-hidden" "contact")
-                       :title title)))))
+          (draw-circle apex (cond (*crowded* 1.3) (*small* 2.2) (t 3))
+                       (if hidden "contact-hidden" "contact") :title title)))))
 
 (defun draw-end-on (apex hidden title)
   "Draw a contact whose normal is seen end-on: a cross if it points away, a dot if to the viewer."
@@ -316,25 +319,29 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
             (let ((outline (list (place 0 4) (place neck 4) (place neck 10) (place length 0)
                                  (place neck -10) (place neck -4) (place 0 -4))))
               (draw-polygon outline "approach")
-              (note-strokes (list tail tip))
-              (occupy-around (along tail tip 0.8) 8)
+              (occupy-area (hull outline))
               (unless *small*
-                (ask-for-label "approach" (along tail tip 0.2) :class "soft" :away 9)))))))))
+                (ask-for-label "approach" (along tail tip 0.4) :class "soft" :away 12
+                               :toward '(-1 0) :optional t)))))))))
 
 (defun draw-palm (subject)
-  "Draw the palm's plate, and ask for its label on the far side from the box."
+  "Draw the palm's plate, and ask for its label."
   (draw-plate (subject-palm-low subject) (subject-palm-high subject) "palm")
-  (unless *small*
-    (let* ((corners (hull (mapcar #'at (box-corners (subject-palm-low subject)
-                                                    (subject-palm-high subject)))))
-           (away (mapcar #'- (middle corners) (middle (silhouette subject))))
-           (way (max 1d0 (distance away '(0 0))))
-           (side (list (+ 0.6d0 (/ (first away) way)) (/ (second away) way))))
-      (flet ((far (corner) (reduce #'+ (mapcar #'* side corner))))
-        (ask-for-label (format nil "palm, over ~a" (funcall (subject-namer subject)
-                                                            (subject-palm subject)))
-                       (first (sort corners #'> :key #'far)) :away 6 :toward side
-                       :leader t)))))
+  (let ((corners (hull (mapcar #'at (box-corners (subject-palm-low subject)
+                                                 (subject-palm-high subject))))))
+    (occupy-area corners)
+    (unless *small*
+      (label-palm subject corners))))
+
+(defun label-palm (subject corners)
+  "Ask for the label of the palm, whose outline is CORNERS, on the far side from the box."
+  (ask-for-label (format nil "palm, over ~a"
+                         (funcall (subject-namer subject) (subject-palm subject)))
+                 (append corners
+                         (loop for (a b) on (append corners (list (first corners)))
+                               while b collect (along a b 1/2)))
+                 :away 6 :leader t
+                 :toward (direction (middle (silhouette subject)) (middle corners))))
 
 ;;; Centres and weight
 
@@ -346,7 +353,7 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
              (across (list (/ (- (second b) (second a)) length)
                            (/ (- (first a) (first b)) length))))
         (draw-line a back "force")
-        (note-strokes (list a b))
+        (note-strokes (list a b) 5)
         (draw-polygon (list b (mapcar (lambda (p c) (+ p (* 4.5 c))) back across)
                             (mapcar (lambda (p c) (- p (* 4.5 c))) back across))
                       "force-tip")))))
@@ -356,10 +363,11 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
   (when (and (subject-load subject) (centre-shown-p subject))
     (destructuring-bind (from to) (mapcar #'at (weight-ends subject))
       (draw-arrow from to)
-      (draw-circle from 2.6 "force-tip")
+      (unless (near-contact-p from subject)
+        (draw-circle from 2.6 "force-tip"))
       (occupy-around to 7)
       (unless *small*
-        (ask-for-label (subject-load subject) to :away 9 :toward '(0.9 0.4))))))
+        (ask-for-label (subject-load subject) to :away 9 :toward '(0.9 0.4) :leader t)))))
 
 (defun draw-closing (subject)
   "Draw a chain line between fingers that oppose each other."
@@ -373,13 +381,28 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
     (draw-line (list (- x 5) y) (list (+ x 5) y) "edge")
     (draw-line (list x (- y 5)) (list x (+ y 5)) "edge")))
 
+(defun near-contact-p (point subject)
+  "True if a contact of SUBJECT is so near POINT that a sign there would cover it."
+  (some (lambda (contact) (< (distance point (at (contact-position contact))) 7))
+        (subject-contacts subject)))
+
+(defun crowded-p (subject)
+  "True if contacts of SUBJECT on different faces are seen as one point."
+  (loop for (one . others) on (subject-contacts subject)
+        thereis (loop for other in others
+                      thereis (and (/= (contact-face one) (contact-face other))
+                                   (< (distance (at (contact-position one))
+                                                (at (contact-position other)))
+                                      9)))))
+
 (defun draw-centre (subject)
   "Draw the grasp centre, a cross, and its offset from the box centre."
   (let* ((centre (at (subject-centre subject)))
          (origin (at '(0d0 0d0 0d0)))
          (offset (distance (subject-centre subject) '(0d0 0d0 0d0))))
-    (draw-cross centre)
-    (occupy-around centre 6)
+    (unless (near-contact-p centre subject)
+      (draw-cross centre)
+      (occupy-around centre 5))
     (when (and (> offset 1d-9) (centre-shown-p subject))
       (draw-line origin centre "thin")
       (draw-circle origin 2.6 "force-tip")
@@ -394,7 +417,7 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
 
 (defun draw-subject (subject view &key small)
   "Draw SUBJECT in VIEW; the labels wait for PLACE-LABELS."
-  (let ((*view* view) (*small* small) (*face-names* '()))
+  (let* ((*view* view) (*small* small) (*face-names* '()) (*crowded* (crowded-p subject)))
     (with-group (:class "view" :description (view-description view))
       (dolist (contact (subject-contacts subject))
         (occupy-around (at (contact-position contact)) 7))

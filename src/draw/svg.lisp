@@ -1,7 +1,7 @@
 ;;;; svg.lisp -- pictures: a small layer of SVG over cl-who.
 ;;;;
 ;;;; A picture is made once, and then written alone or into a page.  What it looks like is in
-;;;; +STYLE+ alone; light and dark are chosen by the reader's device.  Meaning is carried by form,
+;;;; picture.css alone; light and dark are chosen by the reader's device.  Meaning is carried by form,
 ;;;; hatching and words, never by colour alone.
 
 (in-package :supergrip-draw)
@@ -13,62 +13,11 @@ the mark-up of what it shows."
 
 (defvar *out* nil "The stream to which the mark-up of the picture being drawn goes.")
 
-(defparameter +style+ "
-.sg { font-family: Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif; font-size: 13px }
-.sg text { fill: #1a1a1a }
-.sg .heading { font-size: 20px; font-weight: bold }
-.sg .bold { font-weight: bold }
-.sg .soft { fill: #565656 }
-.sg .paper { fill: #ffffff }
-.sg .pad { fill: #ffffff; fill-opacity: 0.85 }
-.sg .face { fill: #f3f3f1; fill-opacity: 0.5; stroke: none }
-.sg .blocked { fill: #cfcfcb; fill-opacity: 0.8; stroke: none }
-.sg .plate { fill: #dededa; stroke: #6a6a6a; stroke-width: 0.7 }
-.hatch { stroke: #6a6a6a; stroke-width: 1 }
-.sg .edge, .sg .finger, .sg .core { fill: none; stroke-linecap: round; stroke-linejoin: round }
-.sg .edge { stroke: #1a1a1a; stroke-width: 1.6 }
-.sg .hidden { fill: none; stroke: #6a6a6a; stroke-width: 1; stroke-dasharray: 5 4 }
-.sg .thin { fill: none; stroke: #565656; stroke-width: 1 }
-.sg .centre { fill: none; stroke: #565656; stroke-width: 1; stroke-dasharray: 12 3 2 3 }
-.sg .frame { fill: none; stroke: #b9b9b4; stroke-width: 1 }
-.sg .finger { stroke: #0b4f8a; stroke-width: 7 }
-.sg .core { stroke: #d9e8f6; stroke-width: 3.6 }
-.sg .behind { fill: none; stroke: #0b4f8a; stroke-width: 2; stroke-dasharray: 6 4 }
-.sg .palm { fill: #d9e8f6; fill-opacity: 0.72; stroke: #0b4f8a; stroke-width: 1.6 }
-.sg .approach { fill: #ffffff; stroke: #0b4f8a; stroke-width: 1.6; stroke-linejoin: round }
-.sg .tip { fill: #0b4f8a; stroke: #ffffff; stroke-width: 1 }
-.sg .tip-hidden { fill: #ffffff; stroke: #0b4f8a; stroke-width: 1.6 }
-.sg .contact { fill: #1a1a1a; stroke: #ffffff; stroke-width: 1 }
-.sg .contact-hidden { fill: #ffffff; stroke: #1a1a1a; stroke-width: 1.4 }
-.sg .force { fill: none; stroke: #9c3500; stroke-width: 2 }
-.sg .force-tip { fill: #9c3500; stroke: none }
-.sg .have { fill: #d9e8f6; stroke: #0b4f8a; stroke-width: 1.2 }
-.sg .need { fill: none; stroke: #9c3500; stroke-width: 3 }
-.sg .block { fill: #f3f3f1; stroke: #1a1a1a; stroke-width: 1.4 }
-@media (prefers-color-scheme: dark) {
-.sg text { fill: #eceff1 }
-.sg .soft { fill: #b4bcc3 }
-.sg .paper, .sg .approach, .sg .tip-hidden, .sg .contact-hidden { fill: #15181b }
-.sg .pad { fill: #15181b }
-.sg .face { fill: #23282d }
-.sg .block { fill: #23282d; stroke: #eceff1 }
-.sg .blocked { fill: #3c4248 }
-.sg .plate { fill: #33383d; stroke: #98a1a8 }
-.hatch { stroke: #98a1a8 }
-.sg .edge { stroke: #eceff1 }
-.sg .hidden { stroke: #98a1a8 }
-.sg .thin, .sg .centre { stroke: #b4bcc3 }
-.sg .frame { stroke: #4a5157 }
-.sg .finger, .sg .palm, .sg .behind, .sg .approach, .sg .tip-hidden, .sg .have { stroke: #8cc4f5 }
-.sg .core { stroke: #163a59 }
-.sg .palm, .sg .have { fill: #163a59 }
-.sg .tip { fill: #8cc4f5; stroke: #15181b }
-.sg .contact { fill: #eceff1; stroke: #15181b }
-.sg .contact-hidden { stroke: #eceff1 }
-.sg .force, .sg .need { stroke: #ffae73 }
-.sg .force-tip { fill: #ffae73 }
-}
-" "What pictures look like.")
+(defmacro text-of-file (name)
+  "Return the text of the file NAME beside this one, as it is when this is compiled."
+  (uiop:read-file-string (merge-pathnames name (or *compile-file-truename* *load-truename*))))
+
+(defparameter +style+ (text-of-file "picture.css") "What pictures look like.")
 
 (defparameter +patterns+
   "<defs><pattern id=\"hatch\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" ~
@@ -193,7 +142,9 @@ the mark-up of what it shows."
 
 (defun draw-text (text point &key (class "plain") (anchor :start))
   "Write TEXT at POINT, the start, middle or end of its baseline, and keep its place clear."
-  (occupy (text-box text point class anchor))
+  (let ((place (text-box text point class anchor)))
+    (occupy place)
+    (push place *words*))
   (markup (:text :class class :x (px (first point)) :y (px (second point))
                  :text-anchor (unless (eq anchor :start) (string-downcase anchor))
                  (cl-who:str (safe text)))))
@@ -202,7 +153,7 @@ the mark-up of what it shows."
 
 (defmacro with-picture ((width height title description) &body body)
   "Return the picture of WIDTH x HEIGHT that BODY draws."
-  `(let ((*obstacles* '()) (*strokes* '()) (*labels* '()))
+  `(let ((*obstacles* '()) (*words* '()) (*areas* '()) (*strokes* '()) (*leaders* '()) (*labels* '()))
      (make-picture :width ,width :height ,height :title ,title :description ,description
                    :body (with-output-to-string (*out*) ,@body))))
 

@@ -4,7 +4,7 @@
 
 (defparameter +blocks+
   '((box      24  76 190  64 "Box and task" "size, weight, friction, needs")
-    (gripper  24 176 190  64 "Gripper" "grasps.lisp")
+    (gripper  72 176 142  64 "Gripper" "grasps.lisp")
     (inputs  262  96 214 106 "Preliminary assertions" "OPPOSED, SMALL, NARROW,"
      "LARGE, CONSTRAINED," "SLIPPERY")
     (rules   262 246 214  64 "Rules" "rules.lisp")
@@ -26,8 +26,10 @@
     ((720 118) (824 118) "remember" (0 -1))
     ((824 142) (720 142) "recall" (0 1))
     ((720 268) (824 268) "keep, can’t" (0 -1))
-    ((622 310) (622 376) "try" (1 -1))
+    ((622 310) (622 376) "try" (1 -0.5))
     ((476 428) (524 428))
+    ((48 140) (48 526) (524 526))
+    ((143 240) (143 492) (524 492))
     ((720 478) (824 478) "store" (0 -1))
     ((909 436) (909 310) "the best" (1 0)))
   "The points of each arrow, its word, and on which side that stands.")
@@ -55,8 +57,9 @@
 (defun draw-levels ()
   "Draw the line between the two levels, and their names."
   (draw-line '(24 344) '(984 344) "hidden")
-  (draw-text "upper level: which grasps are worth trying" '(24 334) :class "soft")
-  (draw-text "lower level: which are possible, and how good" '(24 362) :class "soft"))
+  (note-strokes '((24 344) (984 344)))
+  (draw-text "upper level: which grasps are worth trying" '(262 335) :class "soft")
+  (draw-text "lower level: which are possible, and how good" '(178 362) :class "soft"))
 
 (defun system-picture ()
   "Return the block diagram."

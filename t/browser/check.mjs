@@ -6,10 +6,11 @@
 //
 // Needs Debian's package chromium, or the path of another in CHROMIUM.
 //
-// Each .svg: no text leaves the canvas, none touches a contact, no two texts overlap; the boxes are
-// those that the browser has laid out.  Each .html, 390 and 1280 wide, light and dark: axe-core has
-// nothing to say, and nothing is wider than the window; the texts of its pictures are measured,
-// too.  With SCREENSHOTS, a folder, pages and pictures are saved there as PNG.  Ends with 1 if
+// Each .svg: no text leaves the canvas, none touches a contact, no two texts overlap, and no line or
+// outline runs through a text; the boxes are those that the browser has laid out.  As wide as a
+// README, 830 px, no text is smaller than 9 px.  Each .html, 390 and 1280 wide, light and dark:
+// axe-core has nothing to say, nothing is wider than the window, and no word is broken; the texts of
+// its pictures are measured, too.  With SCREENSHOTS, a folder, pages and pictures are saved there as PNG.  Ends with 1 if
 // anything is wrong.
 
 import { readFileSync, readdirSync, mkdirSync } from 'node:fs'
@@ -30,6 +31,7 @@ const browser = await puppeteer.launch({
   executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
   args: ['--no-sandbox', '--disable-gpu'],
 })
+const README_WIDTH = 830, LEAST_SIZE = 9
 const counts = { pictures: 0, pages: 0, texts: 0, contacts: 0, problems: 0 }
 
 function complain(file, text) {
@@ -38,7 +40,7 @@ function complain(file, text) {
 }
 
 // Runs in the page: what is wrong with the texts of the pictures in it.
-function measure() {
+function measure(limits) {
   const found = { problems: [], texts: 0, contacts: 0, pictures: 0 }
   const pictures = [...document.querySelectorAll('svg.sg[role=img]')]
   for (const svg of pictures.length ? pictures : [document.documentElement]) {
@@ -55,6 +57,48 @@ function measure() {
       const b = box(node), empty = (b.y1 - b.y0) / 5
       return { ...b, y0: b.y0 + empty, y1: b.y1 - empty }
     })
+    // Lines and outlines, as segments on the screen; each text is measured against all of them.
+    const segments = []
+    for (const node of svg.querySelectorAll('line, polyline, polygon, rect:not(.paper)')) {
+      if (node.closest('defs') || getComputedStyle(node).stroke === 'none') continue
+      const matrix = node.getScreenCTM()
+      const at = (x, y) => new DOMPoint(x, y).matrixTransform(matrix)
+      const number = (name) => parseFloat(node.getAttribute(name) || 0)
+      let points
+      if (node.tagName === 'line') {
+        points = [at(number('x1'), number('y1')), at(number('x2'), number('y2'))]
+      } else if (node.tagName === 'rect') {
+        const [x, y, w, h] = ['x', 'y', 'width', 'height'].map(number)
+        points = [at(x, y), at(x + w, y), at(x + w, y + h), at(x, y + h), at(x, y)]
+      } else {
+        points = [...node.points].map((p) => at(p.x, p.y))
+        if (node.tagName === 'polygon') points.push(points[0])
+      }
+      for (let i = 1; i < points.length; i++) {
+        segments.push({ a: points[i - 1], b: points[i], kind: node.getAttribute('class') })
+      }
+    }
+    // The part of a segment inside a box, by clipping it on each side (Liang and Barsky).
+    const meets = ({ a, b }, r) => {
+      let from = 0, to = 1
+      const dx = b.x - a.x, dy = b.y - a.y
+      for (const [p, q] of [[-dx, a.x - r.x0], [dx, r.x1 - a.x], [-dy, a.y - r.y0], [dy, r.y1 - a.y]]) {
+        if (p === 0) { if (q < 0) return false } else if (p < 0) { from = Math.max(from, q / p) }
+        else { to = Math.min(to, q / p) }
+      }
+      return from < to
+    }
+    for (const text of texts) {
+      const inside = { x0: text.x0 + 1, x1: text.x1 - 1, y0: text.y0 + 1, y1: text.y1 - 1 }
+      const cut = segments.find((segment) => meets(segment, inside))
+      if (cut) found.problems.push(`a ${cut.kind} runs through "${text.name}"`)
+    }
+    if (!pictures.length) {
+      const size = Math.min(...[...svg.querySelectorAll('text')]
+        .map((node) => parseFloat(getComputedStyle(node).fontSize)))
+      const shown = size * Math.min(1, limits.width / svg.viewBox.baseVal.width)
+      if (shown < limits.size) found.problems.push(`its words are ${shown.toFixed(1)} px in a README`)
+    }
     const contacts = [...svg.querySelectorAll('.view circle.contact, .view circle.contact-hidden')]
       .map(box)
     found.texts += texts.length
@@ -87,8 +131,27 @@ function measure() {
   return found
 }
 
+// Runs in the page: the words, or parts of words between hyphens, that are broken, though they would
+// fit into a line.
+function brokenWords() {
+  const broken = []
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT)
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    if (node.parentElement.closest('svg, style, pre')) continue
+    for (const match of node.data.matchAll(/[^\s-]+-?/g)) {
+      if (match[0].length > 24) continue
+      const range = document.createRange()
+      range.setStart(node, match.index)
+      range.setEnd(node, match.index + match[0].length)
+      const lines = new Set([...range.getClientRects()].map((r) => Math.round(r.top)))
+      if (lines.size > 1) broken.push(match[0])
+    }
+  }
+  return broken
+}
+
 async function checkTexts(page, file) {
-  const found = await page.evaluate(measure)
+  const found = await page.evaluate(measure, { width: README_WIDTH, size: LEAST_SIZE })
   found.problems.forEach((problem) => complain(file, problem))
   counts.pictures += found.pictures
   counts.texts += found.texts
@@ -104,6 +167,8 @@ async function checkPage(page, file, name) {
       await page.goto(pathToFileURL(file))
       const wide = await page.evaluate(() => document.documentElement.scrollWidth)
       if (wide > width) complain(where, `it is ${wide} px wide`)
+      const broken = await page.evaluate(brokenWords)
+      if (broken.length) complain(where, `broken: ${[...new Set(broken)].slice(0, 5).join(', ')}`)
       await page.evaluate(axe)
       const result = await page.evaluate(() => window.axe.run())
       for (const violation of result.violations) {
