@@ -44,7 +44,10 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-force-axis #:candidate-velocity-axis
    #:candidate-offset #:candidate-contacts #:candidate-approach
    #:candidate-wrench #:candidate-twist #:candidate-failure
+   #:candidate-palm #:candidate-load #:candidate-force-need #:candidate-velocity-need
    #:try-grasp
+   ;; the batch: what writes a report
+   #:*report-index*
    ;; conditions, from the data layer
    #:supergrip-error #:input-error #:input-error-problems #:syntax-error #:box-error
    #:knowledge-error #:knowledge-warning #:knowledge-warning-problems #:retry

@@ -306,3 +306,31 @@ NIL where it failed before."
   (and (member (candidate-outcome candidate) '(:possible :lifting))
        (with-replay (attempt candidate plan)
          (coerce (attempt-twist attempt) 'list))))
+
+(defun candidate-palm (candidate)
+  "Return the name of the box face that the palm of CANDIDATE is over."
+  (surface-name (svref (matching-faces (%candidate-matching candidate))
+                       (grasp-palm (%candidate-grasp candidate)))))
+
+(defun six-at-centre (function given candidate)
+  "Return the list of six that FUNCTION, of what is GIVEN at the box centre, an offset and a result,
+makes of it at the grasp centre of CANDIDATE."
+  (let ((offset (map '(simple-array double-float (3)) #'abs (candidate-offset candidate)))
+        (result (make-array 6 :element-type 'double-float)))
+    (funcall function given offset result)
+    (coerce result 'list)))
+
+(defun candidate-force-need (candidate plan)
+  "Return the forces and torques that the task of PLAN needs at the grasp centre of CANDIDATE: six
+numbers along X Y Z and about X Y Z."
+  (six-at-centre #'shift-force (%box-force (plan-box plan)) candidate))
+
+(defun candidate-velocity-need (candidate plan)
+  "Return the velocities and rotations that the task of PLAN needs at the grasp centre of CANDIDATE:
+six numbers along X Y Z and about X Y Z."
+  (six-at-centre #'shift-velocity (%box-velocity (plan-box plan)) candidate))
+
+(defun candidate-load (candidate plan)
+  "Return the load of gravity at the grasp centre of CANDIDATE: six numbers along X Y Z and about
+X Y Z."
+  (six-at-centre #'put-load (box-weight (plan-box plan)) candidate))

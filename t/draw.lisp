@@ -182,14 +182,14 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                                 :knowledge (knowledge-with *own-grasp*))
     (destructuring-bind ((file complaints views)) (parsed folder)
       (is (null complaints) "~a: ~a" file complaints)
-      (is (equal 3 (fingers-in (first (last views)))))
+      (is (= 3 (fingers-in (first (last views)))))
       (let ((text (uiop:read-file-string (in-folder folder file))))
         (is (search "HOOK-&lt;3" text))
         (is (search "possible on none of the reference boxes" text))))))
 
-(defun readme-grasp ()
-  "Return the grasp that the README has as an example."
-  (let* ((text (uiop:read-file-string (own-file "README.md")))
+(defun documented-grasp ()
+  "Return the grasp that docs/languages.md has as an example."
+  (let* ((text (uiop:read-file-string (own-file "docs/languages.md")))
          (start (search "(SETQ LATERAL" text)))
     (subseq text start (search "```" text :start2 start))))
 
@@ -201,7 +201,7 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                                                        supergrip:*knowledge*)
                                             :key #'supergrip:grasp-name :test #'string=)
                                       ""
-                                      (readme-grasp))
+                                      (documented-grasp))
                                   (loop for (name conditions)
                                         in '(("THIN" "(DIST '(N1 N2)) < 0.3")
                                              ("AT" "(DIST '(N1 N2)) = FINGER-WIDTH")

@@ -4,28 +4,15 @@
 
 (defparameter +axis-names+ '("along X" "along Y" "along Z" "about X" "about Y" "about Z"))
 
-(defun lever-arms (candidate)
-  (map '(simple-array double-float (3)) #'abs (candidate-offset candidate)))
-
-(defun six-of (function needs candidate)
-  "Return the list that FUNCTION, of needs, arms and a result, makes of NEEDS at the grasp centre."
-  (let ((out (make-array 6 :element-type 'double-float)))
-    (funcall function needs (lever-arms candidate) out)
-    (coerce out 'list)))
-
 (defun force-rows (candidate plan)
   "Return (have need) on each axis for forces: gravity's load taken off, the offset's effect added."
-  (let ((box (plan-box plan)))
-    (mapcar #'list
-            (mapcar #'- (candidate-wrench candidate plan)
-                    (six-of #'supergrip::put-load (box-weight box) candidate))
-            (six-of #'supergrip::shift-force (supergrip::%box-force box) candidate))))
+  (mapcar #'list
+          (mapcar #'- (candidate-wrench candidate plan) (candidate-load candidate plan))
+          (candidate-force-need candidate plan)))
 
 (defun velocity-rows (candidate plan)
   "Return (have need) on each axis for velocities: the offset's effect added."
-  (mapcar #'list (candidate-twist candidate plan)
-          (six-of #'supergrip::shift-velocity (supergrip::%box-velocity (plan-box plan))
-                  candidate)))
+  (mapcar #'list (candidate-twist candidate plan) (candidate-velocity-need candidate plan)))
 
 (defun greatest-of (function candidates plan)
   "Return the greatest number in the rows that FUNCTION makes of CANDIDATES of PLAN."

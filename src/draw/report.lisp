@@ -478,4 +478,4 @@ the index says why.  Returns the index's name, and the number of pages that can'
 
 ;;; The batch finds it here.
 
-(setf supergrip::*report-index* #'report-index)
+(setf *report-index* #'report-index)

@@ -155,8 +155,7 @@ OPTIONS are other slots of the subject."
 
 (defun palm-face (candidate)
   "Return the face that the palm of CANDIDATE is over."
-  (let ((approach (candidate-approach candidate)))
-    (find-if (lambda (face) (< (dot approach (face-normal face)) -0.5)) '(0 1 2 3 4 5))))
+  (surface-index (candidate-palm candidate)))
 
 (defun blocked-faces (box)
   (mapcar #'surface-index (box-constrained box)))
