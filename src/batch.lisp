@@ -8,8 +8,8 @@
 (defstruct (batch (:constructor make-batch (knowledge gamma notation format output)))
   "What records are made with, and how many were.  NOTATION is :LISP, :JSON or NIL, to tell from
 the input; FORMAT is :TRACE, :LISP, :JSON or NIL, as the input.  BAD counts the error records;
-BROKEN is true if one of them was our fault.  PLANS holds the plans for a report, the latest first,
-if KEEP is true."
+BROKEN is true if one of them was an internal error.  PLANS holds the plans for a report, the latest
+first, if KEEP is true."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
   notation format
@@ -154,15 +154,29 @@ COLUMN."
           (plan-result batch description line column))
     (let ((result (or result (problem-result batch description problems line)))
           (output (batch-output batch)))
-      (incf (batch-done batch))
       (when problems (incf (batch-bad batch)))
       (when broken (setf (batch-broken batch) t))
       (ecase (batch-format batch)
-        (:trace (put-text output result))
+        (:trace (put-box-line batch description line)
+         (put-text output result))
         (:lisp (write-lisp-record result output))
         (:json (write-json-record result output)))
+      (incf (batch-done batch))
       (when (batch-after-record batch)
         (funcall (batch-after-record batch))))))
+
+(defun put-box-line (batch description line)
+  "Say before the trace of a box which it is; but a single box without a name has the paper's lines."
+  (let ((name (description-name description))
+        (output (batch-output batch)))
+    (when (or name (plusp (batch-done batch)))
+      (put-text output "(BOX ")
+      (when name
+        (put-lisp-string name output)
+        (put-octet output 32))
+      (put-text output "IN LINE ")
+      (put-integer output line)
+      (put-text output (format nil ")~%")))))
 
 (defun plan-result (batch description line column)
   "Return the record, or the lines, of the plan for the box of DESCRIPTION; or NIL, the problems,
@@ -183,7 +197,7 @@ and whether they are ours."
     (serious-condition (condition)
       (values nil
               (list (make-problem :line line :column column
-                                  :text (format nil "SUPER-GRIP failed, which is our fault: ~a"
+                                  :text (format nil "internal error: ~a (a mistake of SUPER-GRIP; to report it, send this box)"
                                                 condition)))
               t))))
 

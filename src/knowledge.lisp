@@ -116,8 +116,9 @@ What is wrong is left out."
 is among its problems."
   (if (data-file-p file) file (read-path file)))
 
-(defun read-path (path)
-  (let ((name (file-namestring path)))
+(defun read-path (file)
+  (let* ((path (native-path file))
+         (name (file-namestring path)))
     (flet ((unusable (problems)
              (make-data-file :path path :name name :problems problems)))
       (handler-case

@@ -27,9 +27,16 @@ record a box to standard output, in the same order: the best of seven grasps for
   --help                    print this, and end
   --version                 print the version, and end
 
-Exit status: 0 all boxes planned, also those that can't be grasped; 64 the command line is wrong;
-65 a box, a rule or a grasp is not valid (its record says why); 66 a file can't be opened;
-70 our fault; 74 output was lost; 130 after SIGINT, 143 after SIGTERM.
+Exit status:
+  0    all boxes planned, also those that can't be grasped
+  64   the command line is wrong
+  65   a box, a rule or a grasp is not valid (its record says why)
+  66   a file can't be opened or read
+  69   --report, but the pictures are not there (they need cl-who)
+  70   an internal error, a mistake of SUPER-GRIP
+  74   output, or a page of the report, was lost
+  130  after SIGINT, 143 after SIGTERM
+Where several apply: 70, 74, 130 or 143, 66, 65.
 
 Examples:
   supergrip boxes.lisp > records.lisp
@@ -161,30 +168,31 @@ run of more than two seconds has come."
 
 (defun knowledge-of (rules grasps)
   "Return the knowledge of the files RULES and GRASPS, strings, or NIL for those that are built in.
-Signals a KNOWLEDGE-ERROR, or a SYSTEM-FAILURE if one can't be opened."
-  (flet ((readable (file)
-           (close-descriptor (open-descriptor file))
-           (let ((path (uiop:parse-native-namestring file)))
-             (when (uiop:directory-exists-p (uiop:ensure-directory-pathname path))
-               (error 'read-failure :what "can't be read" :errno +is-directory+))
-             path)))
-    (if (or rules grasps)
-        (load-knowledge :rules (if rules (readable rules) (shipped-file "rules.lisp"))
-                        :grasps (if grasps (readable grasps) (shipped-file "grasps.lisp")))
-        *knowledge*)))
+Signals a KNOWLEDGE-ERROR."
+  (if (or rules grasps)
+      (load-knowledge :rules (or rules (shipped-file "rules.lisp"))
+                      :grasps (or grasps (shipped-file "grasps.lisp")))
+      *knowledge*))
+
+(defun check-readable (file)
+  "Return true if FILE, a string or NIL, can be opened; tell why, if it can't."
+  (handler-case (progn (when file (close-descriptor (open-descriptor file)))
+                       t)
+    (system-failure (condition)
+      (tell "supergrip: ~a: ~a" file condition)
+      nil)))
 
 (defun try-knowledge (rules grasps)
   "Return the knowledge of the files RULES and GRASPS; or NIL and the exit status, after a report."
-  (handler-case (handler-bind ((knowledge-warning (lambda (condition)
-                                                    (tell "~a" condition)
-                                                    (muffle-warning condition))))
-                  (knowledge-of rules grasps))
-    (knowledge-error (condition)
-      (tell "~a" condition)
-      (values nil 65))
-    (system-failure (condition)
-      (tell "supergrip: ~{~a~^ or ~}: ~a" (remove nil (list rules grasps)) condition)
-      (values nil 66))))
+  (if (and (check-readable rules) (check-readable grasps))
+      (handler-case (handler-bind ((knowledge-warning (lambda (condition)
+                                                        (tell "~a" condition)
+                                                        (muffle-warning condition))))
+                      (knowledge-of rules grasps))
+        (knowledge-error (condition)
+          (tell "~a" condition)
+          (values nil 65)))
+      (values nil 66)))
 
 (defun check (knowledge)
   "Report that KNOWLEDGE has no mistakes, and of how many things was warned."
@@ -199,7 +207,10 @@ Signals a KNOWLEDGE-ERROR, or a SYSTEM-FAILURE if one can't be opened."
   "Answer the boxes of FILE, a string, - for standard input.  Return NIL, or 66 after a report."
   (handler-case
       (let ((descriptor (if (string= file "-") 0 (open-descriptor file))))
-        (unwind-protect (run-batch batch descriptor)
+        (when (terminal-p descriptor)
+          (tell "supergrip: reading boxes from the terminal; Ctrl-D ends them, --help tells more"))
+        (unwind-protect (let ((*when-asked* :note))
+                          (run-batch batch descriptor))
           (unless (zerop descriptor)
             (close-descriptor descriptor)))
         nil)
@@ -214,14 +225,14 @@ given, and return the exit status."
     (handler-case
         (loop for file in (or files '("-"))
               until *signal*
-              do (push (run-file batch file) statuses))
+              do (push (unless-signalled (run-file batch file)) statuses))
       (write-failure (condition)
         (unless (closed-pipe-p condition)
           (tell "supergrip: standard output: ~a; ~d records are complete at most" condition
                 (batch-done batch))
           (push 74 statuses))))
     (when directory
-      (push (write-report batch directory) statuses))
+      (push (unless-signalled (write-report batch directory)) statuses))
     (when (plusp (batch-bad batch)) (push 65 statuses))
     (when (batch-broken batch) (push 70 statuses))
     (report-end batch)
@@ -236,27 +247,48 @@ given, and return the exit status."
   "The function that writes the pages and the index of a list of plans into a directory, a string,
 or NIL: where the pictures are loaded, they set it.")
 
+(define-condition no-pictures (error) ()
+  (:report "--report needs the pictures, and they need cl-who; supergrip was built without it.
+Install it (Debian: apt-get install cl-who), and build supergrip again.")
+  (:documentation "A report is asked of an executable that was built without the pictures."))
+
 (defun reporter ()
-  "Return *REPORT-INDEX*, loading the pictures first if they are not there; they end the process,
-with a message, if they can't be loaded."
-  (or *report-index*
-      (progn (load (asdf:system-relative-pathname "supergrip" "src/draw/boot.lisp"))
-             *report-index*)))
+  "Return *REPORT-INDEX*, loading the pictures first if they are not there; they end the script, with
+a message, if they can't be loaded.  An executable has them or signals NO-PICTURES."
+  (cond (*report-index*)
+        (*kept-files* (error 'no-pictures))
+        (t (load (asdf:system-relative-pathname "supergrip" "src/draw/boot.lisp"))
+           *report-index*)))
 
 (defun write-report (batch directory)
-  "Write the report of what BATCH has kept into DIRECTORY.  Return NIL, or 74 after a report."
-  (let ((directory (uiop:parse-native-namestring directory :ensure-directory t)))
-    (handler-case (progn (ensure-directories-exist directory)
-                         (funcall (reporter) (reverse (batch-plans batch)) directory)
-                         nil)
-      ((or file-error stream-error) (condition)
-        (tell "supergrip: ~a: ~a" (uiop:native-namestring directory) condition)
-        74))))
+  "Write the report of what BATCH has kept into DIRECTORY, a string.  Return NIL, or 74 after a
+report of what could not be drawn or written."
+  (handler-case
+      (let ((lost (nth-value 1 (funcall (reporter) (reverse (batch-plans batch))
+                                        (native-path directory :directory t)))))
+        (when (and lost (plusp lost))
+          (tell "supergrip: ~a: ~d page~:p can't be drawn; index.html says which, and why" directory
+                lost)
+          74))
+    ((or file-error stream-error system-failure) (condition)
+      (tell "supergrip: ~a: ~a" directory condition)
+      74)))
+
+(defun reportable-p (directory)
+  "Return true if a report can be made and written into DIRECTORY, a string; tell why, if not."
+  (reporter)
+  (handler-case (progn (make-directories directory)
+                       (check-writable directory)
+                       t)
+    (system-failure (condition)
+      (tell "supergrip: ~a: ~a" directory condition)
+      nil)))
 
 (defun report-end (batch)
   "Say on standard error what is not as it should be."
   (when *signal*
-    (tell "supergrip: ended by ~a after ~d boxes" *signal* (batch-done batch)))
+    (tell "supergrip: ended by ~a after ~d boxes~:[~;; the report is not complete~]" *signal*
+          (batch-done batch) (batch-keep batch)))
   (when (plusp (batch-bad batch))
     (tell "supergrip: ~d of ~d boxes are not valid; their records say why" (batch-bad batch)
           (batch-done batch))))
@@ -280,6 +312,7 @@ with a message, if they can't be loaded."
                                                          (getf options :grasps))
     (cond ((null knowledge) status)
           ((getf options :check) (check knowledge))
+          ((and (getf options :report) (not (reportable-p (getf options :report)))) 74)
           (t
            (let ((batch (make-batch knowledge (check-gamma (getf options :gamma *gamma*))
                                     (getf options :input) (getf options :format)
@@ -290,13 +323,22 @@ with a message, if they can't be loaded."
                  (*name-limit* (getf options :name-limit *name-limit*)))
              (when (terminal-p 2)
                (setf (batch-after-record batch) (follow-progress batch)))
-             (when (getf options :report)
-               (reporter)
-               (setf (batch-keep batch) t))
+             (setf (batch-keep batch) (and (getf options :report) t))
              (run-files batch files (getf options :report)))))))
 
-(defun main (arguments)
-  "Do what ARGUMENTS, a list of strings, say, and return the exit status.  See --help."
+(defparameter +internal-error+
+  "supergrip: internal error: ~a
+This is a mistake of SUPER-GRIP.  To report it, send these lines, the command line, what --version
+prints, and the boxes, rules and grasps it was given."
+  "What is said of an error that should not be.")
+
+(defun report-internal-error (condition)
+  "Tell of CONDITION, and return the exit status."
+  (tell +internal-error+ condition)
+  70)
+
+(defun do-command (arguments)
+  "Do what ARGUMENTS, a list of strings, say, and return the exit status; whatever goes wrong."
   (handler-case
       (multiple-value-bind (options files) (parse-command-line arguments)
         (cond ((getf options :help) (print-and-end +help+))
@@ -306,13 +348,39 @@ with a message, if they can't be loaded."
     (usage-error (condition)
       (tell "supergrip: ~a~%Try supergrip --help." condition)
       64)
+    (no-pictures (condition)
+      (tell "supergrip: ~a" condition)
+      69)
     (serious-condition (condition)
-      (tell "supergrip: our fault: ~a" condition)
-      70)))
+      (report-internal-error condition))))
+
+(defun main (arguments)
+  "Do what ARGUMENTS, a list of strings, say, and return the exit status.  See --help."
+  (or (unless-signalled (do-command arguments))
+      (progn (tell "supergrip: ended by ~a" *signal*)
+             (signal-status *signal*))))
 
 (defun main-and-end ()
   "Be the program: do what the command line says, and end the process."
-  (never-debug)
   (catch-signals)
+  (never-debug #'report-internal-error)
   (keep-small)
   (end-process (main (command-arguments))))
+
+;;; The executable
+
+(defun build ()
+  "Save this image as the executable whose name the command line gives, or as supergrip in the
+directory of SUPER-GRIP, and end."
+  (let* ((arguments (command-arguments))
+         (given (and (listp arguments) (first arguments)))
+         (file (or given (native-name (asdf:system-relative-pathname "supergrip" "supergrip")))))
+    (handler-case (prepare-file file)
+      (system-failure (condition)
+        (tell "supergrip: ~a: ~a" file condition)
+        (end-process 66)))
+    (unless *report-index*
+      (tell "supergrip: without --report, since cl-who is not there"))
+    (keep-shipped-files)
+    (never-debug #'report-internal-error)
+    (save-program (native-path file) #'main-and-end)))

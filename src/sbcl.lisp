@@ -36,44 +36,123 @@
   `(sb-ext:atomic-push ,object ,place))
 
 ;;; Signals
+;;;
+;;; SIGINT and SIGTERM end the program, with 130 and 143.  When, *WHEN-ASKED* says: it ends at once, by
+;;; a throw where there is something to put in order, and after the record in hand while there is one.
+
+(defconstant +patience+ 5 "How many seconds the record in hand may take after a signal.")
 
 (defvar *signal* nil "The signal that asks the program to end, :SIGINT or :SIGTERM, or NIL.")
-(defvar *waiting* nil "True while the program waits for input, and so holds no record.")
+(defvar *when-asked* :exit
+  "What a signal does: :EXIT, end the process; :THROW, to the tag SIGNALLED; :NOTE, set *SIGNAL*.")
 (defvar *main-thread* nil)
 
 (defun ask-to-end (signal)
-  "Note that SIGNAL came.  A program that waits for input ends at once; one that is asked twice
-does not wait for the record in hand."
-  (let ((again *signal*))
-    (setf *signal* signal)
-    (cond (again (sb-ext:exit :code (signal-status signal) :abort t))
-          ((not *waiting*))
-          ((eq sb-thread:*current-thread* *main-thread*) (throw 'waiting nil))
-          (t (sb-thread:interrupt-thread *main-thread*
-                                         (lambda () (when *waiting* (throw 'waiting nil))))))))
+  "Let SIGNAL end the program, as *WHEN-ASKED* says.  A program that is asked twice ends at once."
+  (if (eq sb-thread:*current-thread* *main-thread*)
+      (let ((again *signal*))
+        (setf *signal* signal)
+        (ecase (if again :exit *when-asked*)
+          (:exit (end-process (signal-status signal)))
+          (:throw (throw 'signalled nil))
+          (:note (set-alarm +patience+))))
+      (sb-thread:interrupt-thread *main-thread* (lambda () (ask-to-end signal)))))
 
 (defun signal-status (signal)
   "Return the exit status of a program that SIGNAL ended."
   (ecase signal (:sigint 130) (:sigterm 143)))
 
+(defun set-alarm (seconds)
+  "Let SIGALRM come after so many SECONDS."
+  (sb-alien:alien-funcall
+   (sb-alien:extern-alien "alarm" (function sb-alien:unsigned sb-alien:unsigned)) seconds))
+
+(defun catch-signal (number function)
+  "Let FUNCTION be called without arguments when the signal NUMBER comes."
+  (sb-sys:enable-interrupt number (lambda (signal info context)
+                                    (declare (ignore signal info context))
+                                    (funcall function))))
+
 (defun catch-signals ()
-  "Let SIGINT and SIGTERM ask for an end, and writing to a closed pipe fail, not kill."
-  (setf *signal* nil *waiting* nil *main-thread* sb-thread:*current-thread*)
-  (loop for (number name) in `((,sb-unix:sigint :sigint) (,sb-unix:sigterm :sigterm))
-        do (let ((name name))
-             (sb-sys:enable-interrupt number (lambda (signal info context)
-                                               (declare (ignore signal info context))
-                                               (ask-to-end name)))))
+  "Let SIGINT and SIGTERM end the program, and writing to a closed pipe fail, not kill."
+  (setf *main-thread* sb-thread:*current-thread*)
+  (catch-signal sb-unix:sigint (lambda () (ask-to-end :sigint)))
+  (catch-signal sb-unix:sigterm (lambda () (ask-to-end :sigterm)))
+  ;; What had to be finished before the end takes too long.
+  (catch-signal sb-unix:sigalrm (lambda () (when *signal* (ask-to-end *signal*))))
   (sb-sys:enable-interrupt sb-unix:sigpipe :ignore))
 
+(defmacro unless-signalled (&body body)
+  "Return what BODY returns; or NIL, at once, if a signal comes or came: *SIGNAL* tells."
+  `(catch 'signalled
+     (let ((*when-asked* :throw))
+       (if *signal* nil (progn ,@body)))))
+
 ;;; Files
+
+(defun native-path (file &key directory)
+  "Return the path of FILE: a path, or its name as the system has it, a string in which no character
+but / means anything.  If DIRECTORY is true, it is a directory, with or without a / at its end."
+  (if (stringp file)
+      (sb-ext:parse-native-namestring file nil *default-pathname-defaults*
+                                      :as-directory directory)
+      (if directory (uiop:ensure-directory-pathname file) (pathname file))))
+
+(defun native-name (file)
+  "Return the name of FILE, a path or a string, as the system has it."
+  (if (stringp file) file (sb-ext:native-namestring file)))
 
 (defconstant +is-directory+ 21 "The error number EISDIR.")
 
 (defun open-descriptor (file)
-  "Open FILE, a string, for reading; return its descriptor."
+  "Open FILE, the name of a file as the system has it, for reading; return its descriptor."
   (multiple-value-bind (descriptor errno) (sb-unix:unix-open file sb-unix:o_rdonly 0)
-    (or descriptor (error 'read-failure :what "can't be opened" :errno errno))))
+    (cond ((null descriptor)
+           (error 'read-failure :what "can't be opened" :errno errno))
+          ((directory-p descriptor)
+           (close-descriptor descriptor)
+           (error 'read-failure :what "can't be opened" :errno +is-directory+))
+          (t descriptor))))
+
+(defun directory-p (descriptor)
+  "True if DESCRIPTOR is a directory."
+  (let ((mode (nth-value 3 (sb-unix:unix-fstat descriptor))))
+    (and mode (= (logand mode #o170000) #o040000))))
+
+(defun make-directory (name mode)
+  "Make the directory NAME, a string, and return NIL; or return the system's error number."
+  (multiple-value-bind (made errno) (sb-unix:unix-mkdir name mode)
+    (if made nil errno)))
+
+(defun make-directories (name)
+  "Make the directory NAME, a string, and those above it, where they are not there."
+  (let* ((name (string-right-trim "/" name))
+         (slash (position #\/ name :from-end t))
+         (errno (make-directory name #o777)))
+    (when (and (eql errno sb-unix:enoent) slash (plusp slash))
+      (make-directories (subseq name 0 slash))
+      (setf errno (make-directory name #o777)))
+    (unless (member errno (list nil sb-unix:eexist sb-unix:enoent))
+      (error 'write-failure :what "can't be made" :errno errno))))
+
+(defun prepare-file (file)
+  "Make the directories above FILE, a string, and make sure that it can be written."
+  (let ((slash (position #\/ file :from-end t)))
+    (when (and slash (plusp slash))
+      (make-directories (subseq file 0 slash))))
+  (multiple-value-bind (descriptor errno)
+      (sb-unix:unix-open file (logior sb-unix:o_wronly sb-unix:o_creat) #o666)
+    (if descriptor
+        (close-descriptor descriptor)
+        (error 'write-failure :what "can't be written" :errno errno))))
+
+(defun check-writable (directory)
+  "Signal a WRITE-FAILURE unless files can be made in DIRECTORY, a string."
+  (unless (zerop (sb-alien:alien-funcall
+                  (sb-alien:extern-alien "access" (function sb-alien:int sb-alien:c-string
+                                                            sb-alien:int))
+                  (concatenate 'string directory "/") 3)) ; to write and to search
+    (error 'write-failure :what "can't be written" :errno (sb-alien:get-errno))))
 
 (defun close-descriptor (descriptor)
   (sb-unix:unix-close descriptor))
@@ -81,6 +160,10 @@ does not wait for the record in hand."
 (defun terminal-p (descriptor)
   "True if DESCRIPTOR is a terminal."
   (plusp (sb-unix:unix-isatty descriptor)))
+
+(defun wait-for (descriptor direction)
+  "Wait until DESCRIPTOR, a non-blocking one, is ready for :INPUT or :OUTPUT."
+  (sb-sys:wait-until-fd-usable descriptor direction nil nil))
 
 (defun read-octets (descriptor buffer start)
   "Read what there is at DESCRIPTOR, waiting if there is nothing, into BUFFER from START.
@@ -91,14 +174,12 @@ Return the end, which is START at the end of the file or if a signal asks the pr
         (sb-sys:with-pinned-objects (buffer)
           (let ((place (sb-sys:sap+ (sb-sys:vector-sap buffer) start))
                 (room (- (length buffer) start)))
-            (unwind-protect
-                 (catch 'waiting
-                   (setf *waiting* t)
-                   (if *signal* nil (sb-unix:unix-read descriptor place room)))
-              (setf *waiting* nil))))
+            (unless-signalled (sb-unix:unix-read descriptor place room))))
       (cond (*signal* (return start))
             (count (return (+ start (the fixnum count))))
             ((eql errno sb-unix:eintr))
+            ((eql errno sb-unix:eagain)
+             (unless-signalled (wait-for descriptor :input)))
             (t (error 'read-failure :what "can't be read" :errno errno))))))
 
 (defun write-octets (descriptor buffer end)
@@ -111,6 +192,7 @@ Return the end, which is START at the end of the file or if a signal asks the pr
                  (sb-unix:unix-write descriptor buffer start (- end start))
                (cond (count (incf start (the fixnum count)))
                      ((eql errno sb-unix:eintr))
+                     ((eql errno sb-unix:eagain) (wait-for descriptor :output))
                      (t (error 'write-failure :what "can't be written" :errno errno)))))))
 
 ;;; Numbers
@@ -137,12 +219,21 @@ if they are no text in the locale's encoding: SBCL then has none at all."
   (setf (sb-ext:bytes-consed-between-gcs)
         (min (sb-ext:bytes-consed-between-gcs) 16000000)))
 
-(defun never-debug ()
-  "Let an error that nothing handles end the process."
-  (sb-ext:disable-debugger))
+(defun never-debug (report)
+  "Let an error that nothing handles end the process, with the status that REPORT, a function, returns
+for it; and SIGINT, if SBCL still handles it."
+  (setf sb-ext:*invoke-debugger-hook*
+        (lambda (condition hook)
+          (declare (ignore hook))
+          (end-process (if (typep condition 'sb-sys:interactive-interrupt)
+                           (signal-status :sigint)
+                           (funcall report condition))))))
 
 (defun save-program (file function)
   "Save this image as the executable FILE, which calls FUNCTION, and end.
 Options of SBCL's runtime, as --dynamic-space-size, stay possible before all others."
+  (push #'catch-signals sb-ext:*init-hooks*)
+  ;; While SBCL starts, and collects garbage, its own handler of SIGTERM would leave with 0.
+  (push (lambda () (end-process (signal-status :sigterm))) sb-ext:*exit-hooks*)
   (sb-ext:save-lisp-and-die file :executable t :toplevel function
                                  :save-runtime-options :accept-runtime-options))
