@@ -118,7 +118,7 @@ is among its problems."
 
 (defun read-path (file)
   (let* ((path (native-path file))
-         (name (file-namestring path)))
+         (name (if (stringp file) file (file-namestring path))))
     (flet ((unusable (problems)
              (make-data-file :path path :name name :problems problems)))
       (handler-case

@@ -174,9 +174,9 @@ Signals a KNOWLEDGE-ERROR."
                       :grasps (or grasps (shipped-file "grasps.lisp")))
       *knowledge*))
 
-(defun check-readable (file)
-  "Return true if FILE, a string or NIL, can be opened; tell why, if it can't."
-  (handler-case (progn (when file (close-descriptor (open-descriptor file)))
+(defun readable-p (file)
+  "Return true if FILE, a string or NIL, can be read; tell why, if it can't."
+  (handler-case (progn (when file (check-readable file))
                        t)
     (system-failure (condition)
       (tell "supergrip: ~a: ~a" file condition)
@@ -184,7 +184,7 @@ Signals a KNOWLEDGE-ERROR."
 
 (defun try-knowledge (rules grasps)
   "Return the knowledge of the files RULES and GRASPS; or NIL and the exit status, after a report."
-  (if (and (check-readable rules) (check-readable grasps))
+  (if (and (readable-p rules) (readable-p grasps))
       (handler-case (handler-bind ((knowledge-warning (lambda (condition)
                                                         (tell "~a" condition)
                                                         (muffle-warning condition))))

@@ -40,7 +40,7 @@
 ;;; SIGINT and SIGTERM end the program, with 130 and 143.  When, *WHEN-ASKED* says: it ends at once, by
 ;;; a throw where there is something to put in order, and after the record in hand while there is one.
 
-(defconstant +patience+ 5 "How many seconds the record in hand may take after a signal.")
+(defconstant +patience+ 3 "How many seconds the record in hand may take after a signal.")
 
 (defvar *signal* nil "The signal that asks the program to end, :SIGINT or :SIGTERM, or NIL.")
 (defvar *when-asked* :exit
@@ -105,18 +105,16 @@ but / means anything.  If DIRECTORY is true, it is a directory, with or without 
 (defconstant +is-directory+ 21 "The error number EISDIR.")
 
 (defun open-descriptor (file)
-  "Open FILE, the name of a file as the system has it, for reading; return its descriptor."
-  (multiple-value-bind (descriptor errno) (sb-unix:unix-open file sb-unix:o_rdonly 0)
-    (cond ((null descriptor)
-           (error 'read-failure :what "can't be opened" :errno errno))
-          ((directory-p descriptor)
-           (close-descriptor descriptor)
-           (error 'read-failure :what "can't be opened" :errno +is-directory+))
-          (t descriptor))))
+  "Open FILE, a string, for reading; return its descriptor."
+  (multiple-value-bind (descriptor errno)
+      (if (directory-p file)
+          (values nil +is-directory+)
+          (sb-unix:unix-open file sb-unix:o_rdonly 0))
+    (or descriptor (error 'read-failure :what "can't be opened" :errno errno))))
 
-(defun directory-p (descriptor)
-  "True if DESCRIPTOR is a directory."
-  (let ((mode (nth-value 3 (sb-unix:unix-fstat descriptor))))
+(defun directory-p (name)
+  "True if NAME, a string, is that of a directory."
+  (let ((mode (nth-value 3 (sb-unix:unix-stat name))))
     (and mode (= (logand mode #o170000) #o040000))))
 
 (defun make-directory (name mode)
@@ -146,13 +144,28 @@ but / means anything.  If DIRECTORY is true, it is a directory, with or without 
         (close-descriptor descriptor)
         (error 'write-failure :what "can't be written" :errno errno))))
 
+(defun check-access (name mode)
+  "Return NIL if MODE, 4 to read, 2 to write, 1 to search, is allowed to us for NAME, a string; or the
+system's error number."
+  (if (zerop (sb-alien:alien-funcall
+              (sb-alien:extern-alien "access" (function sb-alien:int sb-alien:c-string sb-alien:int))
+              name mode))
+      nil
+      (sb-alien:get-errno)))
+
+(defun check-readable (file)
+  "Signal a READ-FAILURE unless FILE, a string, is a file that can be read.  It is not opened: a pipe
+can be opened once."
+  (let ((errno (check-access file 4)))
+    (cond (errno (error 'read-failure :what "can't be opened" :errno errno))
+          ((directory-p file)
+           (error 'read-failure :what "can't be opened" :errno +is-directory+)))))
+
 (defun check-writable (directory)
   "Signal a WRITE-FAILURE unless files can be made in DIRECTORY, a string."
-  (unless (zerop (sb-alien:alien-funcall
-                  (sb-alien:extern-alien "access" (function sb-alien:int sb-alien:c-string
-                                                            sb-alien:int))
-                  (concatenate 'string directory "/") 3)) ; to write and to search
-    (error 'write-failure :what "can't be written" :errno (sb-alien:get-errno))))
+  (let ((errno (check-access (concatenate 'string directory "/") 3)))
+    (when errno
+      (error 'write-failure :what "can't be written" :errno errno))))
 
 (defun close-descriptor (descriptor)
   (sb-unix:unix-close descriptor))

@@ -322,3 +322,24 @@
 (test spoiled-rules-and-grasps-are-refused-or-work
   (format t "~&   2000 spoiled rules and grasps, seed 13~%")
   (is (null (supergrip-fuzzer:fuzz-knowledge 2000 13))))
+
+(test traces-say-which-box-they-are-of
+  (flet ((box-lines (text)
+           (remove "(BOX " (lines-of (nth-value 1 (run-on text (list (program) "--format" "trace"))))
+                   :test-not (lambda (start line) (eql 0 (search start line))))))
+    (let ((pencil (one-line *pencil*)))
+      (is (null (box-lines pencil)) "the paper's lines")
+      (is (equal '("(BOX IN LINE 3)" "(BOX \"b\" IN LINE 4)" "(BOX \"c\" IN LINE 5)")
+                 (box-lines (format nil "~a~2%~a~%((NAME \"b\") (SIZE 1))~%~a" pencil pencil
+                                    (changed pencil "((" "((NAME \"c\") (")))))
+      (is (equal '("(BOX \"c\" IN LINE 1)")
+                 (box-lines (changed pencil "((" "((NAME \"c\") (")))))))
+
+(test the-shipped-boxes-are-the-same-in-both-notations
+  (flet ((shipped (name)
+           (let ((records (answers (file-text name))))
+             (dolist (record records records)
+               (setf (getf record :line) nil)))))
+    (let ((records (shipped "examples/boxes.lisp")))
+      (is (equal '("grasp" "grasp" "grasp" "cant") (statuses records)))
+      (is (equal records (shipped "examples/boxes.jsonl"))))))

@@ -6,6 +6,15 @@
 
 (defvar *warnings* '())
 
+;;; Without the libraries nothing can be said of warnings.
+(dolist (library '("fiveam" "cl-who"))
+  (handler-bind ((asdf/parse-defsystem:bad-system-name #'muffle-warning))
+    (unless (asdf:find-system library nil)
+      (format *error-output* "t/build.lisp needs ~a: apt-get install ~a~%" library
+              (if (string= library "fiveam") "cl-fiveam" library))
+      (finish-output *error-output*)
+      (sb-ext:exit :code 69 :abort t))))
+
 (let ((*standard-output* (make-broadcast-stream)))
   (asdf:load-system "fiveam")
   (handler-bind ((asdf/parse-defsystem:bad-system-name #'muffle-warning))

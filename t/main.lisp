@@ -108,6 +108,19 @@
       (is (equal "CANT MY REASON"
                  (getf (first (answers *pencil* "--grasps" grasps "--rules" rules)) :reason))))))
 
+(test names-of-files-mean-nothing-to-lisp
+  (dolist (name '("r[1]" "a*b?" "back\\slash" "a space" "new
+line" "dots.." "..." "~" "café" "~a" "[" "*.*"))
+    (destructuring-bind (status output errors)
+        (shell "mkdir \"$0.odd\"; cd \"$0.odd\"
+                echo '(RULE A (IF (U' > \"$1\"; \"$0\" --check --rules \"./$1\" 2>&1
+                echo \"$2\" > \"$1\"; \"$0\" --rules \"./$1\" \"./$1\" 2>&1
+                cd ..; rm -r \"$0.odd\""
+               name "(RULE MINE (IF (CONSTRAINED (s1))) (THEN (CANT MY REASON)))")
+      (declare (ignore status errors))
+      (is (eql 0 (search (format nil "./~a:1:13: " name) output)) "~a" output)
+      (is (search ":LINE 1 :STATUS \"error\"" output) "~a" output))))
+
 (test rules-that-cannot-be-used
   (is (eql 66 (status-of *pencil* "--rules" "/no/such/file")))
   (is (eql 66 (status-of *pencil* "--grasps" "/no/such/file")))
@@ -119,7 +132,8 @@
       (is (eql 65 status))
       (is (equal "" output))
       (is (search ":1:37: # can't stand in a name or a number" errors))))
-  (is (eql 66 (status-of *pencil* "--rules" "/")))
+  (is (equal (list 66 "" (format nil "supergrip: /: can't be opened: Is a directory~%"))
+             (shell "\"$0\" --rules / < /dev/null")))
   (destructuring-bind (status output errors) (shell "\"$0\" --rules $'r\\xff.lisp' < /dev/null")
     (is (eql 64 status))
     (is (equal "" output))
@@ -203,6 +217,78 @@ records and what it said."
                                   errors)
                           "~a ~a" (length lines) errors)))))
 
+(test signals-end-it-from-its-beginning
+  ;; From before its first instruction to after its handlers are set.
+  (loop for (name status) in '(("INT" 130) ("TERM" 143))
+        do (destructuring-bind (exit output errors)
+               (shell "mkfifo \"$0.pipe\"; exec 3<> \"$0.pipe\"
+                       for i in {1..40}; do
+                         timeout --preserve-status -s $1 $(printf .%04d $((i * 3))) \"$0\" <&3 2> /dev/null
+                         echo $?
+                       done | sort | uniq -c; rm \"$0.pipe\"" name)
+             (declare (ignore exit errors))
+             (is (equal (format nil "40 ~d" status) (string-trim '(#\Space #\Newline) output)))))
+  ;; And while the script loads.
+  (dolist (after '(".05" ".1" ".15"))
+    (is (eql 143 (nth-value 0 (run-process (list* "timeout" "--preserve-status" after
+                                                  (script "examples/batch.lisp"))
+                                           :input nil))))))
+
+(test signals-end-it-whatever-it-waits-for
+  (flet ((status (options &optional (input "< /dev/null"))
+           (first (shell (format nil "mkfifo \"$0.pipe\"
+                                      timeout --preserve-status .3 \"$0\" ~a \"$0.pipe\" ~a
+                                      status=$?; rm \"$0.pipe\"; exit $status"
+                                 options input)))))
+    (is (eql 143 (status "")) "opening boxes")
+    (is (eql 143 (status "--rules")) "opening rules")
+    (is (eql 143 (status "--check --grasps" "3<> \"$0.pipe\"")) "reading grasps")
+    (is (eql 143 (status "" "3<> \"$0.pipe\"")) "reading boxes"))
+  (is (equal (format nil "143~%")
+             (second (shell "{ { yes \"$1\" 2> /dev/null | timeout --preserve-status .3 \"$0\"; echo ${PIPESTATUS[1]} >&2; } | sleep 5; } 2>&1"
+                            (one-line *pencil*))))
+      "writing to a pipe that nobody empties"))
+
+(test descriptors-may-be-non-blocking
+  (if (zerop (first (shell "python3 -c 'import fcntl'")))
+      (is (equal (list 0 (format nil "0 2000 2001~%") "")
+                 (shell "python3 -c '
+import fcntl, os, subprocess, sys, threading, time
+def pipe(end):
+    ends = os.pipe()
+    fcntl.fcntl(ends[end], fcntl.F_SETFL, os.O_NONBLOCK)
+    return ends
+program, box = sys.argv[1], (sys.argv[2] + \"\\n\").encode()
+(i, feed), (records, o), (errors, e) = pipe(0), pipe(1), pipe(1)
+run = subprocess.Popen([program, \"-\"] + [\"/no/such/file\"] * 2000, stdin=i, stdout=o, stderr=e)
+for end in i, o, e: os.close(end)
+def write():
+    for part in range(20):
+        os.write(feed, box * 100)
+        time.sleep(.002)
+    os.close(feed)
+def lines(end, found):
+    time.sleep(.1)
+    while True:
+        octets = os.read(end, 5000)
+        if not octets: break
+        found.append(octets.count(b\"\\n\"))
+out, err = [], []
+threads = [threading.Thread(target=write), threading.Thread(target=lines, args=(records, out)),
+           threading.Thread(target=lines, args=(errors, err))]
+for thread in threads: thread.start()
+for thread in threads: thread.join()
+print(run.wait() - 66, sum(out), sum(err) + 1)' \"$0\" \"$1\""
+                        (one-line *pencil*))))
+      (skip "no python3")))
+
+(test on-a-terminal-it-says-that-it-waits
+  (if (zerop (first (shell "script -qec true /dev/null < /dev/null")))
+      (is (search "reading boxes from the terminal"
+                  (second (shell "export PROGRAM=\"$0\"
+                                  script -qec 'timeout 5 \"$PROGRAM\"' /dev/null < /dev/null"))))
+      (skip "no terminal")))
+
 (test progress-is-for-terminals
   ;; A run of more than two seconds, however fast the machine: the input pauses.
   (let ((input "some() { yes \"$PENCIL\" 2> /dev/null | head -n 64; }; { some; sleep 2.1; some; }"))
@@ -236,6 +322,59 @@ cat \"$1\" | \"$0\" --input json --format sexp" (format nil "~afuzz-json.in" (di
                     for record in records
                     always (equal (json-record line) (lisp-record record))))))
       (skip "no python3")))
+
+(defun run-with (form &rest arguments)
+  "Run the script of the batch with ARGUMENTS, FORM evaluated before it.  Return status and errors."
+  (with-text-file (file (format nil "(load ~s) ~a (supergrip::main-and-end)"
+                                (uiop:native-namestring (project-file "src/boot.lisp")) form))
+    (multiple-value-bind (status output errors)
+        (run-on *pencil* (list* "sbcl" "--script" file arguments))
+      (declare (ignore output))
+      (list status errors))))
+
+(test reports-that-cannot-be-made
+  (let ((folder (format nil "~a.pages/r[1]/*" (program))))
+    (flet ((reports (form &optional (folder folder))
+             (run-with (format nil "(setf supergrip::*report-index* (lambda (plans folder) ~a))" form)
+                       "--report" folder)))
+      (is (equal '(0 "") (reports "plans (assert (probe-file folder)) (values folder 0)")))
+      (is (equal (list 74 (format nil "supergrip: ~a: 2 pages can't be drawn; index.html says which, and why~%"
+                                  folder))
+                 (reports "plans (values folder 2)")))
+      (is (eql 70 (first (reports "(car folder)"))))
+      (is (eql 74 (first (reports "(open (merge-pathnames \"none/x\" folder) :direction :output)"))))
+      (is (equal (list 74 (format nil "supergrip: /dev/null/x: can't be made: Not a directory~%"))
+                 (reports "plans (error \"called\")" "/dev/null/x")))
+      (is (equal (list 74 (format nil "supergrip: /dev/null: can't be written: Not a directory~%"))
+                 (reports "plans (error \"called\")" "/dev/null"))))
+    (destructuring-bind (status errors)
+        (run-with "(setf supergrip::*report-index* nil) (supergrip::keep-shipped-files)"
+                  "--report" folder)
+      (is (eql 69 status))
+      (is (search "needs the pictures, and they need cl-who" errors)))))
+
+(test internal-errors-say-what-to-send
+  (destructuring-bind (status errors) (run-with "(defun supergrip::run (&rest all) (car 'oops all))")
+    (is (eql 70 status))
+    (is (search "internal error: " errors))
+    (is (search "To report it, send these lines" errors))))
+
+(test every-status-is-documented
+  (let ((readme (file-text "README.md")))
+    (dolist (status '("0" "64" "65" "66" "69" "70" "74" "130" "143"))
+      (is (search (format nil " ~a " status) supergrip::+help+
+                  :start2 (search "Exit status:" supergrip::+help+)) "--help: ~a" status)
+      (is (search (format nil " ~a " status) readme :start2 (search "**Exit status**" readme))
+          "README: ~a" status))))
+
+(test the-executable-goes-where-it-is-told
+  (loop for (file report) in '(("/" "/: can't be written: Is a directory")
+                               ("/dev/null/x/y" "/dev/null/x/y: can't be made: Not a directory"))
+        do (multiple-value-bind (status output errors)
+               (run-process (append (script "src/build.lisp") (list file)))
+             (is (eql 66 status))
+             (is (equal "" output))
+             (is (search report errors) "~a" errors))))
 
 (test the-executable-stands-alone
   (let ((copy (format nil "~a-copy" (program))))

@@ -36,7 +36,7 @@ Returns its status, standard output and standard error."
 
 (test every-example-runs-and-ends
   (let ((examples (remove-if (lambda (name)
-                               (member name '("pencil" "batch" "figures") :test #'string=))
+                               (member name '("pencil" "batch" "figures" "boxes") :test #'string=))
                              (uiop:directory-files (project-file "examples/"))
                              :key #'pathname-name)))
     (is (>= (length examples) 8))
