@@ -32,7 +32,7 @@ Exit status:
   64   the command line is wrong
   65   a box, a rule or a grasp is not valid (its record says why)
   66   a file can't be opened or read
-  69   --report, but the pictures are not there (they need cl-who)
+  69   --report, but the pictures can't be loaded, or were not there at the build: cl-who is missing
   70   an internal error, a mistake of SUPER-GRIP
   74   output, or a page of the report, was lost
   130  after SIGINT, 143 after SIGTERM
@@ -247,16 +247,18 @@ given, and return the exit status."
   "The function that writes the pages and the index of a list of plans into a directory, a string,
 or NIL: where the pictures are loaded, they set it.")
 
-(define-condition no-pictures (error) ()
-  (:report "--report needs the pictures, and they need cl-who; supergrip was built without it.
-Install it (Debian: apt-get install cl-who), and build supergrip again.")
-  (:documentation "A report is asked of an executable that was built without the pictures."))
+(define-condition no-pictures (error)
+  ((reason :initarg :reason :reader no-pictures-reason))
+  (:report (lambda (condition stream)
+             (format stream "--report needs the pictures, which can't be loaded: ~a"
+                     (no-pictures-reason condition))))
+  (:documentation "The pictures are not in this program, and can't be loaded either."))
 
 (defun reporter ()
-  "Return *REPORT-INDEX*, loading the pictures first if they are not there; they end the script, with
-a message, if they can't be loaded.  An executable has them or signals NO-PICTURES."
+  "Return *REPORT-INDEX*, loading the pictures first if they are not there.  Signals NO-PICTURES."
   (cond (*report-index*)
-        (*kept-files* (error 'no-pictures))
+        (*kept-files*
+         (error 'no-pictures :reason "it was built without cl-who; install that, and build it again"))
         (t (load (asdf:system-relative-pathname "supergrip" "src/draw/boot.lisp"))
            *report-index*)))
 

@@ -215,7 +215,7 @@
       (is (= 1 tries)))))
 
 (test a-file-that-is-not-there-is-named
-  (is (equal '("no-such-rules.lisp: this file can't be opened")
+  (is (equal '("/tmp/no-such-rules.lisp: this file can't be opened")
              (problem-texts (lambda () (supergrip:load-knowledge :rules "/tmp/no-such-rules.lisp"))))))
 
 (test a-spoiled-file-names-line-and-column

@@ -351,7 +351,7 @@ cat \"$1\" | \"$0\" --input json --format sexp" (format nil "~afuzz-json.in" (di
         (run-with "(setf supergrip::*report-index* nil) (supergrip::keep-shipped-files)"
                   "--report" folder)
       (is (eql 69 status))
-      (is (search "needs the pictures, and they need cl-who" errors)))))
+      (is (search "built without cl-who" errors)))))
 
 (test internal-errors-say-what-to-send
   (destructuring-bind (status errors) (run-with "(defun supergrip::run (&rest all) (car 'oops all))")
