@@ -194,7 +194,7 @@ and whether they are ours."
         (dolist (problem problems)
           (setf (problem-column problem) column))
         (values nil problems nil)))
-    (serious-condition (condition)
+    ((or error storage-condition) (condition)
       (values nil
               (list (make-problem :line line :column column
                                   :text (format nil "internal error: ~a (a mistake of SUPER-GRIP; to report it, send this box)"

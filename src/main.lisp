@@ -353,7 +353,8 @@ prints, and the boxes, rules and grasps it was given."
     (no-pictures (condition)
       (tell "supergrip: ~a" condition)
       69)
-    (serious-condition (condition)
+    ;; Not SIGINT: one that came while SBCL started is for NEVER-DEBUG.
+    ((or error storage-condition) (condition)
       (report-internal-error condition))))
 
 (defun main (arguments)

@@ -232,6 +232,14 @@ if they are no text in the locale's encoding: SBCL then has none at all."
   (setf (sb-ext:bytes-consed-between-gcs)
         (min (sb-ext:bytes-consed-between-gcs) 16000000)))
 
+(defun catch-signals-first ()
+  "Catch signals before SBCL makes other threads, which SIGTERM could come to."
+  ;; SBCL would make an error of a hook out of SIGINT.
+  (handler-bind ((sb-sys:interactive-interrupt (lambda (condition)
+                                                 (declare (ignore condition))
+                                                 (end-process (signal-status :sigint)))))
+    (catch-signals)))
+
 (defun never-debug (report)
   "Let an error that nothing handles end the process, with the status that REPORT, a function, returns
 for it; and SIGINT, if SBCL still handles it."
@@ -245,8 +253,9 @@ for it; and SIGINT, if SBCL still handles it."
 (defun save-program (file function)
   "Save this image as the executable FILE, which calls FUNCTION, and end.
 Options of SBCL's runtime, as --dynamic-space-size, stay possible before all others."
-  (push #'catch-signals sb-ext:*init-hooks*)
-  ;; While SBCL starts, and collects garbage, its own handler of SIGTERM would leave with 0.
+  ;; While SBCL starts, and collects garbage, its own handlers are in force: that of SIGTERM would leave
+  ;; with 0, that of SIGINT gets to NEVER-DEBUG.
   (push (lambda () (end-process (signal-status :sigterm))) sb-ext:*exit-hooks*)
+  (push #'catch-signals-first sb-ext:*init-hooks*)
   (sb-ext:save-lisp-and-die file :executable t :toplevel function
                                  :save-runtime-options :accept-runtime-options))
