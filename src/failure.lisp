@@ -40,10 +40,9 @@ that is beyond an edge of its face, the worst first; :NONE if a form has no valu
 (defun closed-at-p (grasp registers u)
   "True if GRASP is closed at friction U, the rest as in REGISTERS."
   (setf (aref registers +u+) u)
-  (handler-case
-      (loop for register across (run-program (grasp-wrench grasp) registers)
-            always (> (aref registers register) 0d0))
-    (arithmetic-error () nil)))
+  (and (has-value-p (grasp-wrench grasp) registers)
+       (loop for register across (program-results (grasp-wrench grasp))
+             always (> (aref registers register) 0d0))))
 
 (defun closing-friction (grasp registers)
   "Return the least friction above that in REGISTERS that closes GRASP, or NIL; and the greatest that
@@ -73,10 +72,12 @@ does not."
                                       has ~a" (figures too-little u))
                  "open: the contacts don't close on this shape with any friction"))))))
 
+(defun bounded (number)
+  "Return NUMBER, or the greatest double if it is infinite: a replay traps nothing."
+  (min number most-positive-double-float))
+
 (defun bounded-ratio (a b)
-  "Return A / B, above 0, or the greatest double where that overflows."
-  (handler-case (/ a b)
-    (arithmetic-error () most-positive-double-float)))
+  (bounded (/ a b)))
 
 (defun load-shares (attempt)
   "Return the shares, six, that the load takes of what the grasp bears alone on each axis."
@@ -84,8 +85,7 @@ does not."
 
 (defun total-share (shares)
   "Return the sum of SHARES, at most the greatest double."
-  (handler-case (reduce #'+ shares)
-    (arithmetic-error () most-positive-double-float)))
+  (bounded (reduce #'+ shares)))
 
 (defun describe-lifting-failure (attempt)
   "Return in words that the load is too much: on one axis, or on several together."
@@ -94,7 +94,7 @@ does not."
          (axis (position worst shares)))
     (if (> worst 1)
         (apply #'format nil "it can't hold the weight: the load ~a is ~a, the grasp bears ~a"
-               (axis-name axis) (figures (aref (attempt-load attempt) axis)
+               (axis-name axis) (figures (bounded (aref (attempt-load attempt) axis))
                                          (aref (attempt-wrench attempt) axis)))
         (format nil "it can't hold the weight: the load takes ~{~a of what the grasp bears ~a~^, ~
                      ~}, together ~a; the axes share the same friction, so 1 is the most"

@@ -1,17 +1,69 @@
 ;;;; forms.lisp -- the forms of the grasp file are checked and become trees of nodes.
 ;;;;
-;;;; First of two stages: every operator, name and count is checked here, constants are computed,
-;;;; and helper functions are opened up.  testforms.lisp does the same for what is true or false;
-;;;; emit.lisp turns the trees into programs of the machine.
+;;;; The first of two stages: every operator, name and count is checked here, constants are computed,
+;;;; and helper functions are opened up.  programs.lisp turns the trees into closures.
+;;;;
+;;;; A form gives a number, six numbers, or is true or false.  What may stand first in one is a row:
+;;;; of operators.lisp, or a DEFINE-FORM here.
 
 (in-package :supergrip)
 
 (defstruct node
-  "One step of a form.  OP and ARGS say what it does; FORM is where it stood."
-  op (args '() :type list) form)
+  "One step of a form.  KIND and ARGS say what it does, FORM is where it stood.  What the ARGS of
+each kind are:
+
+:CONSTANT number               :TRUE, :FALSE
+:INPUT register                :NOT test
+:OPERATION operator number...  :AND test test, :OR test test
+:LET (node...) body            :CONSTRAINED slot
+:COND (test value)...          :COMPARISON comparison number number
+:LIST number...
+
+A :LET computes its nodes, whether its body uses them or not."
+  kind (args '() :type list) form)
+
+(defun node (kind form &rest args)
+  (make-node :kind kind :args args :form form))
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defparameter +node-kinds+
+    '((:number :constant :input :operation :let :cond)
+      (:six :list :let :cond)
+      (:test :true :false :not :and :or :constrained :comparison))
+    "What a node gives, and the kinds of the nodes that give it."))
+
+(defmacro node-case ((gives node) &body clauses)
+  "Run that one of CLAUSES which is for the kind of NODE.  A clause is (KIND PARAMETERS form...) or
+((KIND...) PARAMETERS form...); PARAMETERS take the arguments of the node.  What NODE GIVES is known;
+an error at compile time says so if one of its kinds has no clause."
+  (let ((kinds (rest (assoc gives +node-kinds+)))
+        (handled (loop for (kinds) in clauses append (if (listp kinds) kinds (list kinds))))
+        (the-node (gensym "NODE")))
+    (when (set-exclusive-or kinds handled)
+      (error "NODE-CASE: the kinds of nodes that give a ~a are ~s; this handles ~s" gives kinds
+             handled))
+    `(let ((,the-node ,node))
+       (ecase (node-kind ,the-node)
+         ,@(loop for (kinds parameters . body) in clauses
+                 collect `(,kinds ,(if parameters
+                                       `(destructuring-bind ,parameters (node-args ,the-node)
+                                          ,@body)
+                                       `(progn ,@body))))))))
 
 (defun input-node (register)
-  (make-node :op :input :args (list register)))
+  (node :input nil register))
+
+(defun constant-p (node) (eq (node-kind node) :constant))
+(defun constant-value (node) (first (node-args node)))
+
+(defun test-value (node)
+  "Return T or :FALSE if NODE, a test, is so whatever the box; NIL if it depends."
+  (node-case (:test node)
+    (:true () t)
+    (:false () :false)
+    ((:not :and :or :constrained :comparison) () nil)))
+
+;;; What names mean
 
 (defstruct scope
   "What names mean in a form: VARIABLES, an alist from name to node, of which GLOBALS are what
@@ -19,12 +71,31 @@ every form sees; FUNCTIONS, an alist from name to (PARAMETERS . BODY), the lates
 the names of those that are wrong; CONSTANTS, a table of the nodes of all forms' numbers."
   (variables '()) (globals '()) (functions '()) (broken '()) (constants (make-hash-table)))
 
+(defparameter +most-constants+ 16000
+  "How many different numbers a grasp file may have.  They and the steps of a form take fewer registers
+than there are.")
+
+(defun constant-node (scope number)
+  "Return the node of NUMBER, or NIL after a complaint if there are too many."
+  (let* ((number (as-double number))
+         (constants (scope-constants scope))
+         ;; Doubles hash badly.
+         (key (if (zerop number) number (rational number))))
+    (cond ((gethash key constants))
+          ((>= (hash-table-count constants) +most-constants+)
+           (complain nil "more than ~d different numbers in one file" +most-constants+))
+          (t (setf (gethash key constants) (node :constant nil number))))))
+
+(defun bind-variable (scope name node)
+  "Return SCOPE with the variable NAME, a string, bound to NODE."
+  (let ((new (copy-scope scope)))
+    (push (cons name node) (scope-variables new))
+    new))
+
+;;; Steps are counted
+
 (defparameter +most-steps+ 8000
   "How many steps a form may have once its helpers are opened up: each may call the last twice.")
-
-(defparameter +most-constants+ 16000
-  "How many different numbers a grasp file may have.  Six forms of a grasp, each with the most steps,
-and these take fewer registers than there are.")
 
 (defvar *steps-left* +most-steps+ "How many steps the form being read may still have.")
 (defvar *counted-form* nil "The form whose steps are counted.")
@@ -34,55 +105,67 @@ and these take fewer registers than there are.")
   `(let ((*steps-left* +most-steps+) (*counted-form* ,form))
      ,@body))
 
-(defun too-many-steps-p ()
-  "Count a step, and return true, after a complaint at the first, if it is one too many."
-  (when (minusp (decf *steps-left*))
-    (when (= *steps-left* -1)
-      (complain *counted-form* "more than ~d steps, with the helpers that it calls put in their ~
-                                places" +most-steps+))
-    t))
+(defun count-step ()
+  "Count a step.  Return NIL if it is one too many, after a complaint at the first."
+  (decf *steps-left*)
+  (when (= *steps-left* -1)
+    (complain *counted-form* "more than ~d steps, with the helpers that it calls put in their places"
+              +most-steps+))
+  (>= *steps-left* 0))
 
-(defun constant-node (scope number)
-  (let* ((number (as-double number))
-         (constants (scope-constants scope))
-         ;; Doubles hash badly.
-         (key (if (zerop number) number (rational number))))
-    (cond ((gethash key constants))
-          ((>= (hash-table-count constants) +most-constants+)
-           (complain nil "more than ~d different numbers in one file" +most-constants+))
-          (t (setf (gethash key constants)
-                   (make-node :op :constant :args (list number)))))))
+;;; Forms, whatever they give
 
-(defun constant-p (node) (eq (node-op node) :constant))
-(defun constant-value (node) (first (node-args node)))
+(defmacro define-form (name gives (form scope &optional (wanted (gensym "WANTED"))) &body body)
+  "Define what a form that begins with NAME is, where one of what it GIVES is WANTED.  BODY returns
+the node of FORM in SCOPE, or NIL after a complaint."
+  `(add-operator (make-operator :name ,name :gives ',gives
+                                :parse (lambda (,form ,scope ,wanted)
+                                         (declare (ignorable ,scope ,wanted))
+                                         ,@body))))
 
-(defun bind-variable (scope name node)
-  "Return SCOPE with the variable NAME, a string, bound to NODE."
-  (let ((new (copy-scope scope)))
-    (push (cons name node) (scope-variables new))
-    new))
+(defun parse-form (form scope wanted)
+  "Return the node of FORM, which gives what is WANTED: :NUMBER, :SIX or :TEST.  NIL after a
+complaint."
+  (let ((*form* (if (and (consp form) *lines* (gethash form *lines*)) form *form*)))
+    (ecase wanted
+      (:number (and (count-step) (parse-number-form form scope)))
+      (:test (and (count-step) (parse-test form scope)))
+      (:six (parse-six form scope)))))
+
+(defun parse-forms (forms scope wanted)
+  "Return the nodes of FORMS, or NIL after complaints."
+  (let ((nodes (loop for form in forms collect (parse-form form scope wanted))))
+    (and (notany #'null nodes) nodes)))
+
+(defun form-operator (form wanted)
+  "Return the operator that FORM begins with, if it can give what is WANTED, or NIL."
+  (let ((operator (and (consp form) (namep (first form))
+                       (find-operator (symbol-name (first form))))))
+    (and operator (member wanted (operator-gives operator)) operator)))
+
+(defun operator-names (wanted)
+  "Return the names of the operators that give what is WANTED."
+  (loop for operator in *operators*
+        when (member wanted (operator-gives operator)) collect (operator-name operator)))
+
+(defun check-argument-count (form least most)
+  "Return true if FORM has LEAST to MOST (NIL: any) arguments, or complain."
+  (let ((count (length (rest form))))
+    (or (and (>= count least) (or (null most) (<= count most)))
+        (complain form "~a takes ~d~@[ to ~d~] argument~p~:[~; or more~], here ~d: ~a"
+                  (first form) least (and most (/= least most) most) (or most least) (null most)
+                  count (form-text form)))))
 
 ;;; Numbers
 
-(defparameter +arithmetic+
-  '(("+" 1) ("-" 1) ("*" 1) ("/" 1 2) ("SQRT" 1 1) ("EXPT" 2 2) ("MIN" 1) ("MAX" 1) ("ABS" 1 1)
-    ("POSIT" 1 1))
-  "The operators on numbers, with their least and greatest count of arguments.")
-
-(defparameter +special-forms+ '("DIST" "COND" "IF" "LET" "LET*")
-  "The other operators of a form that gives a number.")
-
 (defun parse-number-form (form scope)
-  "Return the node of FORM, which gives a number, or NIL after a complaint."
-  (let ((*form* (if (and (consp form) (line-known-p form)) form *form*)))
-    (cond ((too-many-steps-p) nil)
-          ((realp form)
+  (let ((operator (form-operator form :number)))
+    (cond ((realp form)
            (if (as-double form) (constant-node scope form) (complain form "~a is out of range" form)))
           ((namep form) (parse-variable form scope))
-          ((and (consp form) (namep (first form))) (parse-operation form scope))
+          (operator (funcall (operator-parse operator) form scope :number))
+          ((and (consp form) (namep (first form))) (parse-call form scope))
           (t (complain form "~a is not a number, a name or an operation" (form-text form))))))
-
-(defun line-known-p (form) (and *lines* (gethash form *lines*)))
 
 (defun parse-variable (name scope)
   (or (cdr (assoc name (scope-variables scope) :test #'name=))
@@ -90,84 +173,43 @@ and these take fewer registers than there are.")
                       parameters and what LET* binds" name
                 (suggestion (symbol-name name) (mapcar #'car (scope-variables scope))))))
 
-(defun parse-operation (form scope)
-  (let* ((name (symbol-name (first form)))
-         (arithmetic (assoc name +arithmetic+ :test #'string=))
-         (function (assoc name (scope-functions scope) :test #'string=)))
-    (cond (arithmetic (parse-arithmetic form scope (second arithmetic) (third arithmetic)))
-          (function (parse-call form scope function))
-          ((string= name "DIST") (parse-dist form))
-          ((string= name "COND") (parse-cond form scope #'parse-number-form))
-          ((string= name "IF") (parse-if form scope #'parse-number-form))
-          ((string= name "LET*") (parse-let form scope #'parse-number-form t))
-          ((string= name "LET") (parse-let form scope #'parse-number-form nil))
-          ;; Of the helper enough was said.
-          ((member name (scope-broken scope) :test #'string=) (parse-arguments form scope) nil)
-          (t (complain form "unknown operator ~a~a in ~a; operators are ~{~a~^ ~}" name
-                       (suggestion name (operators scope)) (form-text form) (operators scope))))))
+(defun parse-arithmetic (form scope wanted)
+  (declare (ignore wanted))
+  (let ((operator (form-operator form :number)))
+    (when (check-argument-count form (arithmetic-least operator) (arithmetic-most operator))
+      (let ((nodes (parse-forms (rest form) scope :number)))
+        (and nodes (arithmetic-node operator nodes form scope))))))
 
-(defun operators (scope)
-  (append (mapcar #'first +arithmetic+) +special-forms+ (mapcar #'car (scope-functions scope))))
+(defun arithmetic-node (operator nodes form scope)
+  "Return the node of OPERATOR on NODES, which are more than it takes at once, or fewer."
+  (let ((first (arithmetic-first operator)))
+    (cond ((and first (null (rest nodes)))
+           (operation-node operator (list (constant-node scope first) (first nodes)) form scope))
+          ((eql 1 (arithmetic-most operator)) (operation-node operator nodes form scope))
+          (t (reduce (lambda (a b) (operation-node operator (list a b) form scope)) nodes)))))
 
-(defun wrong-count (form least most)
-  "Complain, and return true, if FORM does not have LEAST to MOST arguments."
-  (let ((count (length (rest form))))
-    (when (or (< count least) (and most (> count most)))
-      (complain form "~a takes ~d~@[ to ~d~] argument~p~:[~; or more~], here ~d: ~a"
-                (first form) least (and most (/= least most) most) (or most least) (null most)
-                count (form-text form))
-      t)))
-
-(defun parse-arguments (form scope)
-  "Return the nodes of the arguments of FORM, or NIL after a complaint."
-  (let ((nodes (loop for argument in (rest form) collect (parse-number-form argument scope))))
-    (and (notany #'null nodes) nodes)))
-
-(defun parse-arithmetic (form scope least most)
-  (unless (wrong-count form least most)
-    (let ((nodes (parse-arguments form scope)))
-      (and nodes (arithmetic-node (symbol-name (first form)) nodes form scope)))))
-
-(defun arithmetic-node (name nodes form scope)
-  "Return the node of the operator NAME on NODES: operators of many arguments become pairs."
-  (flet ((make (op &rest nodes) (operation op nodes form scope))
-         (zero () (constant-node scope 0)))
-    (cond ((string= name "POSIT") (make :max (first nodes) (zero)))
-          ((string= name "ABS")
-           (make :max (first nodes) (make :- (zero) (first nodes))))
-          ((string= name "SQRT") (make :sqrt (first nodes)))
-          ((string= name "EXPT") (power-node nodes form scope))
-          ((and (string= name "-") (null (rest nodes))) (make :- (zero) (first nodes)))
-          ((and (string= name "/") (null (rest nodes)))
-           (make :/ (constant-node scope 1) (first nodes)))
-          (t (reduce (lambda (a b) (make (find-symbol name :keyword) a b)) nodes)))))
-
-(defun power-node (nodes form scope)
-  "Return the node of a power; small whole powers are products."
-  (destructuring-bind (base power) nodes
-    (if (and (constant-p power) (member (constant-value power) '(1d0 2d0 3d0 4d0)))
-        (let ((node base))
-          (loop repeat (1- (round (constant-value power)))
-                do (setf node (operation :* (list node base) form scope)))
-          node)
-        (operation :expt nodes form scope))))
-
-(defun operation (op nodes form scope)
-  "Return the node of OP on NODES, computed at once if they are constants.  NIL if one is NIL."
+(defun operation-node (operator nodes form scope)
+  "Return the node of OPERATOR on NODES, as many as it takes at once.  It is computed now if they are
+constants.  NIL if one of them is NIL."
   (cond ((member nil nodes) nil)
         ((every #'constant-p nodes)
-         (handler-case
-             (let ((value (as-double (apply (operator-function op)
-                                            (mapcar #'constant-value nodes)))))
-               (if value
-                   (constant-node scope value)
-                   (complain form "~a is out of range" (form-text form))))
-           (arithmetic-error () (complain form "~a has no value" (form-text form)))))
-        (t (make-node :op op :args nodes :form form))))
+         (let ((value (operator-value operator (mapcar #'constant-value nodes))))
+           (cond ((null value) (complain form "~a has no value" (form-text form)))
+                 ((as-double value) (constant-node scope value))
+                 (t (complain form "~a is out of range" (form-text form))))))
+        (t (make-node :kind :operation :args (cons operator nodes) :form form))))
 
-(defun operator-function (op)
-  (ecase op (:+ #'+) (:- #'-) (:* #'*) (:/ #'/) (:min #'min) (:max #'max)
-    (:sqrt #'real-root) (:expt #'real-power)))
+(defun parse-power (form scope wanted)
+  "Return the node of FORM, a power; small whole powers are products."
+  (declare (ignore wanted))
+  (let ((nodes (and (check-argument-count form 2 2) (parse-forms (rest form) scope :number))))
+    (when nodes
+      (destructuring-bind (base power) nodes
+        (if (and (constant-p power) (member (constant-value power) '(1d0 2d0 3d0 4d0)))
+            (arithmetic-node (find-operator "*")
+                             (loop repeat (round (constant-value power)) collect base)
+                             form scope)
+            (operation-node (form-operator form :number) nodes form scope))))))
 
 (defun quoted-slots (form)
   "Return the slots that FORM, '(N1 N2), lists, or NIL."
@@ -175,43 +217,59 @@ and these take fewer registers than there are.")
          (slots (and (consp list) (mapcar #'slot-index list))))
     (and slots (notany #'null slots) slots)))
 
-(defun parse-dist (form)
+(define-form "DIST" (:number) (form scope)
   (let ((slots (and (= (length form) 2) (quoted-slots (second form)))))
     (if (and (= (length slots) 2) (= 1 (logxor (first slots) (second slots))))
         (input-node (+ +distances+ (floor (first slots) 2)))
         (complain form "~a: DIST takes two opposite faces, as (DIST '(N1 N2))" (form-text form)))))
 
-(defun parse-call (form scope function)
+;;; Helper functions
+
+(defun parse-call (form scope)
+  "Return the node of FORM, a call of a helper of SCOPE: its body, opened up."
+  (let* ((name (symbol-name (first form)))
+         (function (assoc name (scope-functions scope) :test #'string=))
+         (known (append (operator-names :number) (mapcar #'car (scope-functions scope)))))
+    (cond (function (open-call form scope function))
+          ;; The helper was already reported.
+          ((member name (scope-broken scope) :test #'string=)
+           (parse-forms (rest form) scope :number)
+           nil)
+          (t (complain form "unknown operator ~a~a in ~a; operators are ~{~a~^ ~}" name
+                       (suggestion name known) (form-text form) known)))))
+
+(defun open-call (form scope function)
   (destructuring-bind (name parameters . body) function
     (declare (ignore name))
-    (unless (wrong-count form (length parameters) (length parameters))
-      (let ((nodes (parse-arguments form scope)))
-        (and nodes
-             (let ((inner (copy-scope scope)))
-               (setf (scope-variables inner)
-                     (append (mapcar #'cons parameters nodes) (scope-globals scope))
-                     ;; A helper sees those before it, so none can call itself.
-                     (scope-functions inner) (rest (member function (scope-functions scope))))
-               (let ((body (parse-number-form body inner)))
-                 (and body (eager-node nodes body form)))))))))
+    (when (check-argument-count form (length parameters) (length parameters))
+      (let ((nodes (loop for argument in (rest form)
+                         collect (parse-form argument scope :number)))
+            (inner (copy-scope scope)))
+        (unless (member nil nodes)
+          (setf (scope-variables inner)
+                (append (mapcar #'cons parameters nodes) (scope-globals scope))
+                ;; A helper sees those before it, so none can call itself.
+                (scope-functions inner) (rest (member function (scope-functions scope))))
+          (let-node nodes (parse-form body inner :number) form))))))
 
-(defun eager-node (nodes body form)
-  "Return a node that computes NODES, as a Lisp call does, whether BODY uses them or not."
-  (let ((nodes (remove-if (lambda (node) (member (node-op node) '(:constant :input))) nodes)))
-    (if nodes
-        (make-node :op :let :args (list nodes body) :form form)
+(defun let-node (nodes body form)
+  "Return a node that computes NODES, as a Lisp call does, whether BODY uses them or not.  NIL if BODY
+is."
+  (let ((nodes (remove-if (lambda (node) (member (node-kind node) '(:constant :input))) nodes)))
+    (if (and body nodes)
+        (node :let form nodes body)
         body)))
 
-;;; LET, COND and IF serve numbers and lists of six alike; PARSE reads what they give.
+;;; What numbers and lists of six have in common
 
 (defun parse-binding (binding scope form)
   "Return the name and the node of BINDING, or NIL after a complaint."
   (if (and (consp binding) (namep (first binding)) (= (length binding) 2))
-      (let ((node (parse-number-form (second binding) scope)))
+      (let ((node (parse-form (second binding) scope :number)))
         (and node (cons (symbol-name (first binding)) node)))
       (complain form "~a is not a binding, as (r (/ (DIST '(N1 N2)) 2))" (form-text binding))))
 
-(defun parse-let (form scope parse sequential)
+(defun parse-let (form scope wanted sequential)
   (if (not (and (= (length form) 3) (listp (second form))))
       (complain form "~a is (~:*~a ((name form)...) form)" (first form))
       (let ((inner scope) (nodes '()) (good t))
@@ -221,52 +279,149 @@ and these take fewer registers than there are.")
                          (push (cdr entry) nodes))
                   (t (setf good nil)))))
         (and good
-             (let ((body (funcall parse (third form) inner)))
-               (and body (eager-node (nreverse nodes) body form)))))))
+             (let-node (nreverse nodes) (parse-form (third form) inner wanted) form)))))
 
-(defun parse-cond (form scope parse)
-  (let ((branches
-          (loop for clause in (rest form)
-                collect (if (and (consp clause) (= (length clause) 2))
-                            (let ((test (parse-test (first clause) scope))
-                                  (value (funcall parse (second clause) scope)))
-                              (and test value (list test value)))
-                            (complain form "~a is not a clause of COND, as (T 0)"
-                                      (form-text clause))))))
-    (cond ((or (null branches) (member nil branches))
-           (if branches nil (complain form "COND has no clause")))
-          ((not (eq t (test-value (first (first (last branches))))))
+(defun parse-clause (clause scope wanted form)
+  "Return the test and the value of CLAUSE, or NIL after a complaint."
+  (if (and (consp clause) (= (length clause) 2))
+      (let ((test (parse-form (first clause) scope :test))
+            (value (parse-form (second clause) scope wanted)))
+        (and test value (list test value)))
+      (complain form "~a is not a clause of COND, as (T 0)" (form-text clause))))
+
+(define-form "COND" (:number :six) (form scope wanted)
+  (let ((clauses (loop for clause in (rest form)
+                       collect (parse-clause clause scope wanted form))))
+    (cond ((null clauses) (complain form "COND has no clause"))
+          ((member nil clauses) nil)
+          ((not (eq t (test-value (first (first (last clauses))))))
            (complain form "the last clause of COND must be (T ...), or a case has no value"))
-          (t (make-node :op :cond :args branches :form form)))))
+          (t (make-node :kind :cond :args clauses :form form)))))
 
-(defun parse-if (form scope parse)
+(define-form "IF" (:number :six) (form scope wanted)
   (if (/= (length form) 4)
       (complain form "IF is (IF test then else)")
-      (let ((test (parse-test (second form) scope))
-            (then (funcall parse (third form) scope))
-            (else (funcall parse (fourth form) scope)))
+      (let ((test (parse-form (second form) scope :test))
+            (then (parse-form (third form) scope wanted))
+            (else (parse-form (fourth form) scope wanted)))
         (and test then else
-             (make-node :op :cond :form form
-                        :args (list (list test then) (list (make-node :op :true) else)))))))
+             (node :cond form (list test then) (list (node :true form) else))))))
+
+(define-form "LET" (:number :six) (form scope wanted)
+  (parse-let form scope wanted nil))
+
+(define-form "LET*" (:number :six) (form scope wanted)
+  (parse-let form scope wanted t))
 
 ;;; Lists of six
 
 (defun parse-six (form scope)
-  "Return the node of FORM, which gives six numbers: a list of six entries, or one form, LIST,
-LET*, LET, COND or IF, that gives them.  NIL after a complaint."
-  (let ((*form* (if (and (consp form) (line-known-p form)) form *form*)))
+  "Return the node of FORM: a list of six entries, or one form that gives them."
+  (let ((operator (form-operator form :six)))
     (cond ((not (consp form)) (complain form "~a is not a list of six entries" (form-text form)))
-          ((part-p form "LIST") (parse-six-entries form (rest form) scope))
-          ((part-p form "LET*") (parse-let form scope #'parse-six t))
-          ((part-p form "LET") (parse-let form scope #'parse-six nil))
-          ((part-p form "COND") (parse-cond form scope #'parse-six))
-          ((part-p form "IF") (parse-if form scope #'parse-six))
+          (operator (funcall (operator-parse operator) form scope :six))
           (t (parse-six-entries form form scope)))))
 
 (defun parse-six-entries (form entries scope)
-  (let ((nodes (loop for entry in entries collect (parse-number-form entry scope))))
+  (let ((nodes (parse-forms entries scope :number)))
     (cond ((/= (length entries) 6)
            (complain form "~d entr~:@p, six are needed: along N O A, about N O A (OFFSET: N1 N2 O1 ~
                            O2 A1 A2)" (length entries)))
-          ((notany #'null nodes)
-           (make-node :op :list :args nodes :form form)))))
+          (nodes (make-node :kind :list :args nodes :form form)))))
+
+(define-form "LIST" (:six) (form scope)
+  (parse-six-entries form (rest form) scope))
+
+;;; Tests: T, (CONSTRAINED N1), comparisons prefix (< a b) or infix (a < b), (NOT test), and tests
+;;; joined by AND and OR, prefix or infix; infix AND and OR have equal precedence and associate to
+;;; the right: a AND b OR c is a AND (b OR c).
+
+(defun connective-p (object) (or (name= object "AND") (name= object "OR")))
+
+(defun named-comparison (object)
+  "Return the comparison that OBJECT names, or NIL."
+  (let ((operator (form-operator (list object) :test)))
+    (and (comparison-p operator) operator)))
+
+(defun parse-test (form scope)
+  "Return the node of FORM, which is true or false, or NIL after a complaint."
+  (let ((operator (form-operator form :test)))
+    (cond ((name= form "T") (node :true form))
+          ((not (consp form)) (complain form "~a is not a test" (form-text form)))
+          (operator (funcall (operator-parse operator) form scope :test))
+          ((null (rest form)) (parse-form (first form) scope :test))
+          (t (parse-infix form scope)))))
+
+(define-form "CONSTRAINED" (:test) (form scope)
+  (let ((slot (and (= (length form) 2)
+                   (slot-index (if (part-p (second form) "QUOTE")
+                                   (second (second form))
+                                   (second form))))))
+    (if slot
+        (node :constrained form slot)
+        (complain form "~a: CONSTRAINED takes one of N1 N2 O1 O2 A1 A2" (form-text form)))))
+
+(define-form "NOT" (:test) (form scope)
+  (if (/= (length form) 2)
+      (complain form "~a: NOT takes one test" (form-text form))
+      (let ((test (parse-form (second form) scope :test)))
+        (and test
+             (case (test-value test)
+               ((t) (node :false form))
+               (:false (node :true form))
+               (t (node :not form test)))))))
+
+(define-form "AND" (:test) (form scope)
+  (parse-connective form scope))
+
+(define-form "OR" (:test) (form scope)
+  (parse-connective form scope))
+
+(defun parse-connective (form scope)
+  (let ((tests (parse-forms (rest form) scope :test)))
+    (cond ((null (rest form)) (complain form "~a joins no tests" (first form)))
+          (tests (reduce (lambda (a b) (connective-node (first form) a b form)) tests
+                         :from-end t)))))
+
+(defun connective-node (name a b form)
+  "Return the node of A and B joined by NAME, AND or OR; of one that decides nothing, the other."
+  (let* ((and-p (name= name "AND"))
+         (value (test-value a)))
+    (cond ((null value) (node (if and-p :and :or) form a b))
+          ((eq and-p (eq value t)) b)
+          (t a))))
+
+(defun parse-infix (form scope)
+  (let ((place (position-if #'connective-p form))
+        (comparison (and (= (length form) 3) (named-comparison (second form)))))
+    (cond ((and (null place) comparison)
+           (comparison-node comparison (list (first form) (third form)) form scope))
+          ((null place)
+           (complain form "~a is not a test: write (a < b), and join tests by AND and OR"
+                     (form-text form)))
+          ((or (zerop place) (= place (1- (length form))))
+           (complain form "~a: ~a stands between two tests" (form-text form) (nth place form)))
+          (t
+           (let ((a (parse-form (infix-part (subseq form 0 place)) scope :test))
+                 (b (parse-form (infix-part (nthcdr (1+ place) form)) scope :test)))
+             (and a b (connective-node (nth place form) a b form)))))))
+
+(defun infix-part (part)
+  (if (rest part) part (first part)))
+
+(defun parse-prefix-comparison (form scope wanted)
+  (declare (ignore wanted))
+  (if (/= (length form) 3)
+      (complain form "~a: ~a compares two numbers" (form-text form) (first form))
+      (comparison-node (form-operator form :test) (rest form) form scope)))
+
+(defun comparison-node (comparison operands form scope)
+  "Return the node of COMPARISON between OPERANDS, two forms.  It is decided now if they are
+constants."
+  (let ((nodes (parse-forms operands scope :number)))
+    (cond ((null nodes) nil)
+          ((every #'constant-p nodes)
+           (node (if (apply #'comparison-true-p comparison (mapcar #'constant-value nodes))
+                     :true :false)
+                 form))
+          (t (make-node :kind :comparison :args (cons comparison nodes) :form form)))))

@@ -5,13 +5,14 @@
 (defstruct grasp
   "A grasp mode.  USED is the list of the slots that it uses, PALM the slot that the palm faces,
 CONTACTS a list of (SLOT P Q), P and Q being registers; PLACES holds the same as axes (0 to 2) and
-registers in turn, without the axes that the faces are normal to.  The other parts are PROGRAMs.
+registers in turn, without the axes that the faces are normal to.  The other parts are PROGRAMs;
+COMPARISONS is an alist from the comparisons in CONDITIONS-NODE to those of their operands.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
-SAME, for each matching, the set of those that are the same grasp, itself included; COMPARISONS is
-an alist from the comparisons in CONDITIONS-NODE to the programs of their operands."
+SAME, for each matching, the set of those that are the same grasp, itself included."
   (name "" :type string) form file line (comment '()) (index 0 :type fixnum)
   (used '() :type list) (palm 0 :type fixnum)
-  (conditions-node nil) (conditions nil :type (or null program)) (comparisons '() :type list)
+  (conditions-node nil) (conditions nil :type (or null program))
+  (comparisons '() :type list)
   (offset nil :type (or null program))
   (positions nil :type (or null program)) (contacts '() :type list)
   (places nil :type register-vector)
@@ -57,14 +58,16 @@ start from."
     (cond ((or (null name) (/= (length form) 4) (not (listp (third form)))
                (notevery #'namep parameters))
            (complain form "a helper is (DEFUN name (parameter...) form)"))
-          ((name-in name (append (operators scope) +comparisons+ '("AND" "OR" "NOT" "LIST")))
+          ((or (find-operator (symbol-name name))
+               (assoc name (scope-functions scope) :test #'name=))
            (complain form "~a is already an operator" name))
           (t
            (let ((inner (copy-scope scope)))
              (dolist (parameter parameters)
                (setf inner (bind-variable inner (symbol-name parameter)
-                                          (make-node :op :parameter))))
-             (if (counting-steps (form) (parse-number-form (fourth form) inner))
+                                          ;; Any number will do: the form is only checked.
+                                          (input-node +u+))))
+             (if (counting-steps (form) (parse-form (fourth form) inner :number))
                  (push (list* (symbol-name name) (mapcar #'symbol-name parameters) (fourth form))
                        (scope-functions scope))
                  (push (symbol-name name) (scope-broken scope))))))))
@@ -123,9 +126,8 @@ start from."
           ((and used (not (member slot used)))
            (complain contact "a finger is on ~a, which is not one of USED-SURFACES"
                      (svref +slots+ slot)))
-          (t (let ((p (parse-number-form (second contact) scope))
-                   (q (parse-number-form (third contact) scope)))
-               (and p q (list slot p q)))))))
+          (t (let ((place (parse-forms (rest contact) scope :number)))
+               (and place (cons slot place)))))))
 
 (defun parse-contacts (entry used palm scope form)
   "Return the contacts, by default one in the middle of each used face but the palm's."
@@ -144,16 +146,19 @@ start from."
 
 (defun parse-conditions (form scope)
   "Return the node of FORM, the grasping conditions; warn if they never hold."
-  (let ((node (parse-test form scope)))
-    (when (and node (eq (node-op node) :false))
+  (let ((node (parse-form form scope :test)))
+    (when (and node (eq (test-value node) :false))
       (complain form '(:warning "these conditions are false for every box")))
     node))
 
 (defun negative-twist (node)
-  "Return the first constant below zero in NODE, a list of six, or NIL."
-  (and node (eq (node-op node) :list)
-       (find-if (lambda (entry) (and (constant-p entry) (minusp (constant-value entry))))
-                (node-args node))))
+  "Return the first constant below zero in NODE, which gives six numbers, or NIL."
+  (node-case (:six node)
+    (:list (&rest entries)
+      (find-if (lambda (entry) (and (constant-p entry) (minusp (constant-value entry)))) entries))
+    (:let (nodes body) (declare (ignore nodes)) (negative-twist body))
+    (:cond (&rest clauses)
+      (loop for (nil value) in clauses thereis (negative-twist value)))))
 
 (defun parse-grasp (name plist form scope)
   "Return the draft of the grasp NAME, whose description is PLIST, or NIL after a complaint."
@@ -179,10 +184,10 @@ start from."
                                 (counting-steps (form)
                                   (parse-contacts (given "CONTACTS") used palm scope form)))))
                (conditions (part "CONDITIONS" (parse-conditions (value "CONDITIONS") scope)))
-               (offset (part "OFFSET" (parse-six (value "OFFSET") scope)))
-               (wrench (part "WRENCH" (parse-six (value "WRENCH") scope)))
-               (twist (part "TWIST" (parse-six (value "TWIST") scope))))
-          (when (negative-twist twist)
+               (offset (part "OFFSET" (parse-form (value "OFFSET") scope :six)))
+               (wrench (part "WRENCH" (parse-form (value "WRENCH") scope :six)))
+               (twist (part "TWIST" (parse-form (value "TWIST") scope :six))))
+          (when (and twist (negative-twist twist))
             (let ((*place* "TWIST"))
               (setf twist (complain (value "TWIST") "an entry below 0: mobility is 0 or more"))))
           (and used palm contacts conditions offset wrench twist
@@ -238,34 +243,29 @@ of them."
           'register-vector))
 
 (defun finish-grasp (draft layout)
-  "Return the grasp of DRAFT, its forms emitted for LAYOUT."
-  (flet ((six (node)
-           (emit-program layout (lambda (code) (emit-six node code)))))
-    (release-registers layout)
-    (let* ((contacts (draft-contacts draft))
-           (fingers (mapcar #'first contacts))
-           (positions (emit-program layout (lambda (code)
-                                             (loop for (nil p q) in contacts
-                                                   collect (emit p code) collect (emit q code)))))
-           (places (coerce (program-results positions) 'list)))
-      (prog1 (make-grasp
-              :name (draft-name draft) :form (draft-form draft) :file (draft-file draft)
-              :line (draft-line draft) :comment (draft-comment draft)
-              :used (draft-used draft) :palm (draft-palm draft)
-              :conditions-node (draft-conditions draft)
-              :conditions (emit-test layout (draft-conditions draft))
-              :comparisons (comparison-programs layout (draft-conditions draft))
-              :offset (six (draft-offset draft))
-              :positions positions
-              :places (contact-places contacts places)
-              :contacts (loop for slot in fingers
-                              for (p q) on places by #'cddr
-                              collect (list slot p q))
-              :wrench (six (draft-wrench draft))
-              :twist (six (draft-twist draft))
-              :usable (usable-matchings (draft-used draft))
-              :same (same-matchings (draft-used draft) fingers))
-        (release-registers layout)))))
+  "Return the grasp of DRAFT, its forms ready to run on the registers of LAYOUT."
+  (let* ((contacts (draft-contacts draft))
+         (fingers (mapcar #'first contacts))
+         (conditions (draft-conditions draft))
+         (positions (numbers-program (loop for (nil . place) in contacts append place) layout))
+         (places (coerce (program-results positions) 'list)))
+    (make-grasp
+     :name (draft-name draft) :form (draft-form draft) :file (draft-file draft)
+     :line (draft-line draft) :comment (draft-comment draft)
+     :used (draft-used draft) :palm (draft-palm draft)
+     :conditions-node conditions
+     :conditions (test-program conditions layout)
+     :comparisons (comparison-programs conditions layout)
+     :offset (six-program (draft-offset draft) layout)
+     :positions positions
+     :places (contact-places contacts places)
+     :contacts (loop for slot in fingers
+                     for (p q) on places by #'cddr
+                     collect (list slot p q))
+     :wrench (six-program (draft-wrench draft) layout)
+     :twist (six-program (draft-twist draft) layout)
+     :usable (usable-matchings (draft-used draft))
+     :same (same-matchings (draft-used draft) fingers))))
 
 ;;; The file
 

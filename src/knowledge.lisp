@@ -57,7 +57,7 @@ What is wrong is left out."
   (multiple-value-bind (bases problems)
       (with-problems
         (let* ((graspbase (with-data-file (grasp-file)
-                            (build-graspbase (data-file-forms grasp-file))))
+                            (with-plain-floats (build-graspbase (data-file-forms grasp-file)))))
                (rulebase (with-data-file (rule-file)
                            (build-rulebase (data-file-forms rule-file) (input-predicates)
                                            :client graspbase))))

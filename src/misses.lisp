@@ -2,18 +2,10 @@
 
 (in-package :supergrip)
 
-;;; What the nodes of forms are, for this file.
+;;; Nodes
 
-(defun test-kind (node)
-  "Return what the test NODE is: :TRUE, :FALSE, :NOT, :AND, :OR, :CONSTRAINED or :COMPARISON."
-  (case (node-op node)
-    (:blocked :constrained)
-    ((:< :<= :> :>= :=) :comparison)
-    (t (node-op node))))
-
-(defun comparison-name (node) (symbol-name (node-op node)))
-(defun comparison-nodes (node) (node-args node))
-(defun comparison-holds-p (node a b) (funcall (comparison-function (node-op node)) a b))
+(defun node-comparison (node) (first (node-args node)))
+(defun comparison-nodes (node) (rest (node-args node)))
 
 (defun comparison-operands (node grasp registers)
   "Return the values of the two operands of NODE, a comparison in the conditions of GRASP, on
@@ -25,22 +17,24 @@ REGISTERS, which hold what box and matching give.  NIL if one has no value."
 
 (defun has-value-p (program registers)
   "Run PROGRAM on REGISTERS.  True if it has a value."
-  (handler-case (progn (execute program registers) t)
+  (handler-case (execute program registers)
     (arithmetic-error () nil)))
 
 (defun body-of (node)
   "Return the node whose value NODE has."
-  (if (eq (node-op node) :let) (body-of (second (node-args node))) node))
+  (if (eq (node-kind node) :let) (body-of (second (node-args node))) node))
 
 (defun operands-of (node name)
   "Return the operands of NODE if it is the operation NAME, or NIL."
   (let ((node (body-of node)))
-    (and (eq (node-op node) (find-symbol name :keyword)) (node-args node))))
+    (and (eq (node-kind node) :operation)
+         (eq (first (node-args node)) (find-operator name))
+         (rest (node-args node)))))
 
 (defun input-of (node)
   "Return the register of NODE if it is what the box gives, or NIL."
   (let ((node (body-of node)))
-    (and (eq (node-op node) :input) (first (node-args node)))))
+    (and (eq (node-kind node) :input) (first (node-args node)))))
 
 ;;; Faults
 
@@ -61,20 +55,20 @@ which hold what box and matching give: all that would have to change for it to b
   (flet ((fault-if (false &rest more)
            (and false (list (apply #'make-fault :node node :negated negated more))))
          (joined (all) (joined-faults node negated all grasp registers)))
-    (ecase (test-kind node)
-      (:true (fault-if negated))
-      (:false (fault-if (not negated)))
-      (:not (faults (first (node-args node)) (not negated) grasp registers))
-      (:and (joined (not negated)))
-      (:or (joined negated))
-      (:constrained
-       (fault-if (eq negated (= 1d0 (aref registers (+ +blocked+ (first (node-args node))))))))
-      (:comparison
-       (multiple-value-bind (a b) (comparison-operands node grasp registers)
-         (if a
-             (fault-if (eq negated (comparison-holds-p node a b))
-                       :numbers (list a b) :shortfall (relative-difference a b))
-             (fault-if t)))))))
+    (node-case (:test node)
+      (:true () (fault-if negated))
+      (:false () (fault-if (not negated)))
+      (:not (test) (faults test (not negated) grasp registers))
+      (:and () (joined (not negated)))
+      (:or () (joined negated))
+      (:constrained (slot)
+        (fault-if (eq negated (= 1d0 (aref registers (+ +blocked+ slot))))))
+      (:comparison ()
+        (multiple-value-bind (a b) (comparison-operands node grasp registers)
+          (if a
+              (fault-if (eq negated (comparison-true-p (node-comparison node) a b))
+                        :numbers (list a b) :shortfall (relative-difference a b))
+              (fault-if t)))))))
 
 (defun joined-faults (node negated all grasp registers)
   "Return the faults of NODE, which joins tests: of each, if ALL must be as they should, else of one."
@@ -194,30 +188,28 @@ node."
 
 (defun operand-forms (form)
   "Return the forms of the two operands of the comparison FORM, infix or prefix."
-  (if (comparison-p (first form)) (rest form) (list (first form) (third form))))
+  (if (named-comparison (first form)) (rest form) (list (first form) (third form))))
 
-(defun demanded-comparison (name negated turned)
-  "Return the comparison that is asked for, where the one of NAME should not hold if NEGATED, with its
-operands exchanged if TURNED."
-  (let ((name (if negated
-                  (second (assoc name '(("<" ">=") ("<=" ">") (">" "<=") (">=" "<") ("=" "other than"))
-                                 :test #'string=))
-                  name)))
-    (if turned
-        (or (second (assoc name '(("<" ">") ("<=" ">=") (">" "<") (">=" "<=")) :test #'string=))
-            name)
-        name)))
+(defun demanded-comparison (comparison negated turned)
+  "Return in words what is asked for, where COMPARISON should not hold if NEGATED, with its operands
+exchanged if TURNED."
+  (let ((comparison (if turned (find-operator (comparison-mirror comparison)) comparison)))
+    (if negated
+        (or (comparison-opposite comparison) (format nil "not ~a" (operator-name comparison)))
+        (operator-name comparison))))
 
 (defun comparison-parts (fault)
   "Return the operand that the FAULT of a comparison is about, its value, what is asked of it (as
 \"<\"), and the other operand, its value and its form."
   (destructuring-bind (a b) (comparison-nodes (fault-node fault))
-    (let* ((turned (and (not (plain-operand-p a)) (or (plain-operand-p b) (constant-p a))))
+    (let* ((comparison (node-comparison (fault-node fault)))
+           (turned (and (comparison-mirror comparison) (not (plain-operand-p a))
+                        (or (plain-operand-p b) (constant-p a))))
            (nodes (if turned (list b a) (list a b)))
            (numbers (if turned (reverse (fault-numbers fault)) (fault-numbers fault)))
            (forms (operand-forms (node-form (fault-node fault)))))
       (values (first nodes) (first numbers)
-              (demanded-comparison (comparison-name (fault-node fault)) (fault-negated fault) turned)
+              (demanded-comparison comparison (fault-negated fault) turned)
               (second nodes) (second numbers) (if turned (first forms) (second forms))))))
 
 (defun comparison-words (fault grasp matching)
@@ -230,18 +222,18 @@ operands exchanged if TURNED."
   "Return FAULT of GRASP in MATCHING in words, with its figures."
   (let ((node (fault-node fault)))
     (cond ((fault-alternatives fault) (alternatives-words fault grasp matching))
-          ((eq (test-kind node) :constrained)
+          ((eq (node-kind node) :constrained)
            (format nil "~a is ~:[not ~;~]constrained" (face-of (first (node-args node)) matching)
                    (fault-negated fault)))
           ((fault-numbers fault) (comparison-words fault grasp matching))
-          ((eq (test-kind node) :comparison) "a form of CONDITIONS has no value")
+          ((eq (node-kind node) :comparison) "a form of CONDITIONS has no value")
           (t (format nil "~a ~:[is never true~;is always true~]" (form-text (node-form node) 60)
                      (fault-negated fault))))))
 
 (defun constrained-face (faults matching)
   "Return the name of the face if FAULTS say no more than that one is constrained, or NIL."
   (let ((node (fault-node (first faults))))
-    (and (null (rest faults)) (eq (test-kind node) :constrained) (fault-negated (first faults))
+    (and (null (rest faults)) (eq (node-kind node) :constrained) (fault-negated (first faults))
          (face-of (first (node-args node)) matching))))
 
 (defun alternatives-words (fault grasp matching)

@@ -57,8 +57,9 @@ more."
   "Return the plan for BOX, a box or a description of one (see PARSE-BOX).
 KNOWLEDGE holds the rules and grasps to use, GAMMA from 0 to 1 weighs velocities against forces.
 A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from several threads."
-  (let ((memory (start-plan box knowledge gamma)))
-    (finish-plan memory knowledge (run-rules (knowledge-rulebase knowledge) memory))))
+  (with-plain-floats
+    (let ((memory (start-plan box knowledge gamma)))
+      (finish-plan memory knowledge (run-rules (knowledge-rulebase knowledge) memory)))))
 
 (defun try-grasp (name &rest arguments)
   "(TRY-GRASP NAME [BOX] &KEY KNOWLEDGE GAMMA): return a plan for BOX, by default what (setq box ...)
@@ -69,12 +70,13 @@ use no constrained face, equivalent ones once.  Other arguments as for PLAN."
       (apply #'try-alone name arguments)))
 
 (defun try-alone (name box &key (knowledge *knowledge*) (gamma *gamma*))
-  (let ((grasp (or (and (name-of name)
-                        (find-grasp (knowledge-graspbase knowledge) (name-of name)))
-                   (error 'no-grasp-error :name name :knowledge knowledge)))
-        (memory (start-plan box knowledge gamma)))
-    (try-matchings memory grasp +all-matchings+)
-    (finish-plan memory knowledge nil (grasp-name grasp))))
+  (with-plain-floats
+    (let ((grasp (or (and (name-of name)
+                          (find-grasp (knowledge-graspbase knowledge) (name-of name)))
+                     (error 'no-grasp-error :name name :knowledge knowledge)))
+          (memory (start-plan box knowledge gamma)))
+      (try-matchings memory grasp +all-matchings+)
+      (finish-plan memory knowledge nil (grasp-name grasp)))))
 
 (define-condition no-grasp-error (supergrip-error)
   ((name :initarg :name :reader no-grasp-error-name)
@@ -254,12 +256,13 @@ figures."
 (defmacro with-attempt ((attempt plan) &body body)
   "Run BODY with ATTEMPT, one at the box of PLAN, which is given back after it."
   (let ((memory (gensym)) (the-plan (gensym)))
-    `(let* ((,the-plan (need-plan ,plan))
-            (,memory (start-plan (plan-box ,the-plan) (plan-knowledge ,the-plan)
-                                 (plan-gamma ,the-plan)))
-            (,attempt (memory-client ,memory)))
-       (multiple-value-prog1 (progn ,@body)
-         (give-back ,memory (plan-knowledge ,the-plan))))))
+    `(without-float-traps
+       (let* ((,the-plan (need-plan ,plan))
+              (,memory (start-plan (plan-box ,the-plan) (plan-knowledge ,the-plan)
+                                   (plan-gamma ,the-plan)))
+              (,attempt (memory-client ,memory)))
+         (multiple-value-prog1 (progn ,@body)
+           (give-back ,memory (plan-knowledge ,the-plan)))))))
 
 (defmacro with-replay ((attempt candidate plan) &body body)
   "Run BODY with ATTEMPT, which holds the figures of CANDIDATE of PLAN and is given back after it."
@@ -272,6 +275,7 @@ figures."
 name of a box face, :POSITION and :NORMAL, lists along X Y Z in the box frame at the box centre;
 positions in cm, the normals point inward."
   (with-replay (attempt candidate plan)
+    (execute (grasp-positions (%candidate-grasp candidate)) (attempt-registers attempt))
     (loop with registers = (attempt-registers attempt)
           with matching = (%candidate-matching candidate)
           for (slot p q) in (grasp-contacts (%candidate-grasp candidate))

@@ -13,7 +13,7 @@ NEED  six doubles >= 0: what the task asks along X, Y, Z and about X, Y, Z, the 
 HAVE  six doubles on the same axes: what the grasp exerts, gravity's load taken off.
 
 The radius is the least HAVE/NEED over the axes with NEED > 0; the second value is that axis, 0 to
-5, or -1 if no axis is needed.
+5, or -1 if no axis is needed.  The radius is infinite if a need or a ratio is out of range.
 
 Source: the paper, Description, u_t and u_w.  Of two ellipsoids with common axes this is the radius
 itself.  What the contacts can really do is no ellipsoid: with the needs that an offset makes grow,
@@ -25,6 +25,8 @@ or a load, the radius is neither an upper nor a lower bound of their strength."
       (let ((needed (aref need axis)))
         (when (> needed 0d0)
           (let ((ratio (/ (aref have axis) needed)))
+            (unless (and (finite-p needed) (finite-p ratio))
+              (return (values sb-ext:double-float-positive-infinity axis)))
             (when (or (minusp limit) (< ratio radius))
               (setf radius ratio limit axis))))))))
 

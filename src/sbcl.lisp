@@ -1,4 +1,5 @@
-;;;; sbcl.lisp -- all that is needed of SBCL itself: file descriptors, signals, digits, atomic lists.
+;;;; sbcl.lisp -- all that is needed of SBCL itself: file descriptors, signals, digits, atomic lists,
+;;;; floating point modes.
 ;;;;
 ;;;; Streams of the standard would do for none of it: they wait until a buffer is full, so a pipe
 ;;;; that pauses would get no answer, and they hide why a write failed.
@@ -34,6 +35,45 @@
 (defmacro give-to (place object)
   "Put OBJECT before the list in PLACE, a slot of a structure."
   `(sb-ext:atomic-push ,object ,place))
+
+;;; Floating point
+
+(defconstant +float-flags+ (dpb -1 sb-vm:float-sticky-bits 0)
+  "The bits of the floating point modes that only say what happened.")
+
+(defconstant +harmless-modes+
+  (logior +float-flags+
+          (dpb (logior sb-vm:float-overflow-trap-bit sb-vm:float-invalid-trap-bit
+                       sb-vm:float-divide-by-zero-trap-bit)
+               sb-vm:float-traps-byte 0))
+  "The bits on which no plan depends: flags, and the traps of operations without a value, which fail
+with or without a trap.")
+
+(declaim (inline call-with-float-modes))
+(defun call-with-float-modes (kept function)
+  "Call FUNCTION with the bits KEPT of the floating point modes as they are, and the others 0."
+  (let ((modes (sb-vm:floating-point-modes)))
+    (if (zerop (logandc2 modes kept))   ; setting them costs ten times as much
+        (funcall function)
+        (unwind-protect
+             (progn (setf (sb-vm:floating-point-modes) (logand modes kept))
+                    (funcall function))
+          (setf (sb-vm:floating-point-modes) modes)))))
+
+(defmacro with-float-modes ((kept) &body body)
+  (let ((function (gensym "BODY")))
+    `(flet ((,function () ,@body))
+       (declare (dynamic-extent #',function))
+       (call-with-float-modes ,kept #',function))))
+
+(defmacro with-plain-floats (&body body)
+  "Run BODY with numbers rounded to the nearest and no trap for inexact or tiny ones, whatever the
+caller has set."
+  `(with-float-modes (+harmless-modes+) ,@body))
+
+(defmacro without-float-traps (&body body)
+  "As WITH-PLAIN-FLOATS; where an operation has no value, it gives an infinity or a NaN."
+  `(with-float-modes (+float-flags+) ,@body))
 
 ;;; Signals
 ;;;

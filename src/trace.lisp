@@ -155,13 +155,14 @@ for."
 (defun observed-plan (box knowledge gamma make-observer)
   "Return the plan for BOX; its run is watched by what MAKE-OBSERVER returns for the unfinished plan
 and the memory that the rules run on."
-  (let* ((memory (start-plan box knowledge gamma))
-         (attempt (memory-client memory))
-         (unfinished (%make-plan :box (attempt-box attempt) :knowledge knowledge
-                                 :gamma (attempt-gamma attempt))))
-    (finish-plan memory knowledge
-                 (run-observed (knowledge-rulebase knowledge) memory
-                               (funcall make-observer unfinished memory)))))
+  (with-plain-floats
+    (let* ((memory (start-plan box knowledge gamma))
+           (attempt (memory-client memory))
+           (unfinished (%make-plan :box (attempt-box attempt) :knowledge knowledge
+                                   :gamma (attempt-gamma attempt))))
+      (finish-plan memory knowledge
+                   (run-observed (knowledge-rulebase knowledge) memory
+                                 (funcall make-observer unfinished memory))))))
 
 (defun traced-plan (box knowledge gamma level step stream)
   "Return the plan for BOX, writing to STREAM what LEVEL and the traced names ask for as it comes."

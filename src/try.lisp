@@ -89,14 +89,16 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
 Entries for opposite faces say the same shift, so they must be opposite numbers."
   (declare (type attempt attempt))
   (let* ((registers (attempt-registers attempt))
-         (results (run-program (grasp-offset grasp) registers))
+         (results (program-results (grasp-offset grasp)))
          (centre (attempt-centre attempt)))
-    (dotimes (i 3 t)
-      (let ((plus (aref registers (aref results (* 2 i))))
-            (minus (aref registers (aref results (1+ (* 2 i))))))
-        (unless (<= (abs (+ plus minus)) (* 1d-9 (+ 1d0 (abs plus))))
-          (return nil))
-        (setf (aref centre i) (* 0.5d0 (- plus minus)))))))
+    (and (execute (grasp-offset grasp) registers)
+         (dotimes (i 3 t)
+           (let* ((plus (aref registers (aref results (* 2 i))))
+                  (minus (aref registers (aref results (1+ (* 2 i)))))
+                  (both (- plus minus)))
+             (unless (and (<= (abs (+ plus minus)) (* 1d-9 (+ 1d0 (abs plus)))) (finite-p both))
+               (return nil))
+             (setf (aref centre i) (* 0.5d0 both)))))))
 
 (declaim (inline inside-p))
 (defun inside-p (place length)
@@ -109,26 +111,27 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
   (let ((registers (attempt-registers attempt))
         (centre (attempt-centre attempt))
         (lengths (attempt-lengths attempt)))
-    (execute (grasp-positions grasp) registers)
-    (loop with places = (grasp-places grasp)
-          for place from 0 below (length places) by 2
-          always (let ((axis (aref places place))
-                       (register (aref places (1+ place))))
-                   (inside-p (+ (aref centre axis) (aref registers register))
-                             (aref lengths axis))))))
+    (and (execute (grasp-positions grasp) registers)
+         (loop with places = (grasp-places grasp)
+               for place from 0 below (length places) by 2
+               always (let ((axis (aref places place))
+                            (register (aref places (1+ place))))
+                        (inside-p (+ (aref centre axis) (aref registers register))
+                                  (aref lengths axis)))))))
 
 (defun compute-capacities (attempt grasp matching)
   "Put wrench and twist, rotated to X Y Z, into the attempt.  True if the grasp is closed."
   (declare (type attempt attempt) (type matching matching))
   (let ((registers (attempt-registers attempt)))
-    (flet ((rotate (results out least)
+    (flet ((rotate (program out least)
              (declare (type six out) (double-float least))
-             (dotimes (i 6 t)
-               (let ((entry (aref registers (aref results i))))
-                 (unless (> entry least) (return nil))
-                 (setf (aref out (aref (matching-axes matching) i)) entry)))))
-      (and (rotate (run-program (grasp-wrench grasp) registers) (attempt-wrench attempt) 0d0)
-           (rotate (run-program (grasp-twist grasp) registers) (attempt-twist attempt) -1d-300)))))
+             (and (execute program registers)
+                  (dotimes (i 6 t)
+                    (let ((entry (aref registers (aref (program-results program) i))))
+                      (unless (> entry least) (return nil))
+                      (setf (aref out (aref (matching-axes matching) i)) entry))))))
+      (and (rotate (grasp-wrench grasp) (attempt-wrench attempt) 0d0)
+           (rotate (grasp-twist grasp) (attempt-twist attempt) -1d-300)))))
 
 (defun turn-centre (attempt matching candidate)
   "Put the grasp centre into CANDIDATE, in the box frame."
@@ -158,7 +161,7 @@ cross-polytope of wrenches that the contacts can exert."
       (incf shares (/ (aref load axis) (aref wrench axis))))))
 
 (defun rate (attempt candidate)
-  "Compute the radii and the quality of CANDIDATE."
+  "Compute the radii and the quality of CANDIDATE.  True if they are numbers in range."
   (declare (type attempt attempt) (type candidate candidate))
   (let ((box (attempt-box attempt))
         (offset (attempt-offset attempt))
@@ -178,8 +181,8 @@ cross-polytope of wrenches that the contacts can exert."
               (%candidate-velocity-limit candidate) velocity-limit
               (%candidate-quality candidate)
               (quality-index (attempt-gamma attempt) velocity-radius velocity-limit
-                             force-radius force-limit))))
-    t))
+                             force-radius force-limit))
+        (finite-p (%candidate-quality candidate))))))
 
 (defun run-steps (attempt candidate)
   "Take CANDIDATE through the steps; its OUTCOME is the one it failed, or :POSSIBLE."
@@ -200,7 +203,8 @@ cross-polytope of wrenches that the contacts can exert."
                  (:lifting (progn (turn-centre attempt matching candidate)
                                   (bears-load-p attempt)))
                  (:open (rate attempt candidate)))
-        ;; A root, quotient or overflow without a value fails the step that it stands in.
+        ;; What has no value fails the step that it stands in.  The steps find it out by themselves;
+        ;; where a float trap is enabled, it may come first.
         (arithmetic-error () nil)))))
 
 ;;; TRY

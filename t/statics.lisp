@@ -35,8 +35,10 @@ and whether the grasping conditions hold."
           for i from supergrip::+distances+
           do (setf (aref registers i) length))
     (let ((conditions (supergrip::execute (supergrip::grasp-conditions grasp) registers)))
-      (values (loop for register across (supergrip::run-program (supergrip::grasp-wrench grasp) registers)
-                    collect (aref registers register))
+      (values (and (supergrip::execute (supergrip::grasp-wrench grasp) registers)
+                   (loop for register across (supergrip::program-results
+                                              (supergrip::grasp-wrench grasp))
+                         collect (aref registers register)))
               conditions))))
 
 (defparameter *exact*

@@ -1,0 +1,238 @@
+;;;; programs.lisp -- trees of nodes become chains of closures.
+;;;;
+;;;; A program is the first closure of a chain.  Called with the registers, each writes one number
+;;;; and calls the next; a comparison calls one of two.  The last returns true.  A test that is
+;;;; false ends with NIL, and so does what has no value (see operators.lisp).
+;;;;
+;;;; Registers hold first what the box and the matching give, then the constants of all forms, then
+;;;; results, until another program is run.  What was already computed on every way to a step is not
+;;;; computed again.
+;;;;
+;;;; Where a number comes from must be known before the closure that reads it, the next closure
+;;;; before the one that calls it.  So code is written first, as functions from the next closure to
+;;;; the closure of a step, and linked afterwards, from its end.
+
+(in-package :supergrip)
+
+(defstruct program
+  "A form ready to run: FUNCTION, called with the registers, puts the results into the registers
+RESULTS and returns true; NIL if they have no value, or if the form is a test that is false."
+  (function nil :type function)
+  (results nil :type register-vector))
+
+(declaim (inline execute))
+(defun execute (program registers)
+  "Run PROGRAM on REGISTERS, those of its grasp base.  Return NIL if it is a test that is false or a
+result has no value.  An arithmetic error is possible where the caller's float traps ask for it."
+  (declare (type registers registers))
+  (funcall (program-function program) registers))
+
+;;; Registers
+
+(defstruct layout
+  "Which registers are taken: CONSTANTS maps the nodes of constants to registers, which end at BASE;
+MOST are all that are used."
+  (constants (make-hash-table :test #'eq))
+  (base +inputs-end+ :type register) (most +inputs-end+ :type register))
+
+(defun scope-layout (scope)
+  "Return a layout with registers for all constants of SCOPE."
+  (let ((constants (make-hash-table :test #'eq)) (base +inputs-end+))
+    (loop for node being the hash-values of (scope-constants scope)
+          do (setf (gethash node constants) base)
+             (incf base))
+    (make-layout :constants constants :base base :most base)))
+
+(defun make-registers (layout)
+  "Return registers for LAYOUT, the constants in place."
+  (let ((registers (make-array (layout-most layout) :element-type 'double-float
+                                                    :initial-element 0d0)))
+    (loop for node being the hash-keys of (layout-constants layout) using (hash-value register)
+          do (setf (aref registers register) (constant-value node)))
+    registers))
+
+;;; Code
+
+(defstruct code
+  "Code being written.  STEPS, the latest first, are functions from the next closure to that of the
+step.  DONE says what is already computed: an alist from nodes, and from operators on registers, to
+registers.  TOP is the first free register of LAYOUT."
+  (steps '()) (done '()) (top 0 :type register) layout)
+
+(defun new-code (layout)
+  (make-code :layout layout :top (layout-base layout)))
+
+(defun branch (code)
+  "Return empty code that goes on where CODE is.  What it computes CODE will not know."
+  (let ((branch (copy-code code)))
+    (setf (code-steps branch) '())
+    branch))
+
+(defun add-step (code step)
+  (push step (code-steps code)))
+
+(defun link (code next)
+  "Return the closure of CODE, which goes on with the closure NEXT."
+  (dolist (step (code-steps code) next)
+    (setf next (funcall step next))))
+
+(defun new-register (code)
+  (let ((layout (code-layout code)))
+    (prog1 (code-top code)
+      (incf (code-top code))
+      (setf (layout-most layout) (max (layout-most layout) (code-top code))))))
+
+;;; Numbers
+
+(defun write-number (node code &optional to)
+  "Write NODE, and return the register that will hold its number: TO, if it is given and the number
+is in none yet."
+  (or (cdr (assoc node (code-done code) :test #'eq))
+      (let ((register (write-new-number node code to)))
+        (push (cons node register) (code-done code))
+        register)))
+
+(defun write-new-number (node code to)
+  (node-case (:number node)
+    (:constant () (gethash node (layout-constants (code-layout code))))
+    (:input (register) register)
+    (:let (nodes body)
+      (dolist (node nodes)
+        (write-number node code))
+      (write-number body code to))
+    (:operation (operator . nodes)
+      (write-operation operator (loop for node in nodes collect (write-number node code)) code to))
+    (:cond (&rest clauses)
+      (let ((to (or to (new-register code))))
+        (write-clauses clauses code (lambda (node code) (write-number-into node code to)))
+        to))))
+
+(defun write-operation (operator from code to)
+  "Write OPERATOR on the registers FROM, one or two, unless that is done.  Return the register of the
+result."
+  (flet ((done-p (key)
+           (and (consp key) (eq operator (first key)) (equal from (rest key)))))
+    (or (cdr (assoc-if #'done-p (code-done code)))
+        (let ((to (or to (new-register code))))
+          (add-step code (lambda (next) (apply (arithmetic-step operator) next to from)))
+          (push (cons (cons operator from) to) (code-done code))
+          to))))
+
+(defun write-number-into (node code to)
+  "Write NODE, so that the register TO will hold its number."
+  (let ((from (write-number node code to)))
+    (unless (= from to)
+      (add-step code (lambda (next) (move-step next to from))))))
+
+(defun move-step (next to from)
+  (declare (function next) (type register to from))
+  (lambda (registers)
+    (declare (type registers registers))
+    (setf (aref registers to) (aref registers from))
+    (funcall next registers)))
+
+(defun write-clauses (clauses code write-value)
+  "Write the CLAUSES of a COND.  The function WRITE-VALUE writes a node into code."
+  (destructuring-bind ((test value) . others) clauses
+    (if (eq t (test-value test))
+        (funcall write-value value code)
+        (let ((decide (write-test test code))
+              (then (branch code))
+              (else (branch code)))
+          (funcall write-value value then)
+          (write-clauses others else write-value)
+          (add-step code (lambda (next) (funcall decide (link then next) (link else next))))))))
+
+;;; Lists of six
+
+(defun write-six (node code &optional (to (make-list 6)))
+  "Write NODE, and return the registers that will hold its six numbers, as WRITE-NUMBER does."
+  (node-case (:six node)
+    (:list (&rest entries)
+      (loop for entry in entries
+            for register in to
+            collect (write-number entry code register)))
+    (:let (nodes body)
+      (dolist (node nodes)
+        (write-number node code))
+      (write-six body code to))
+    (:cond (&rest clauses)
+      (let ((to (if (first to) to (loop repeat 6 collect (new-register code)))))
+        (write-clauses clauses code (lambda (node code) (write-six-into node code to)))
+        to))))
+
+(defun write-six-into (node code to)
+  (loop for from in (write-six node code to)
+        for register in to
+        unless (= from register)
+          do (let ((from from) (register register))
+               (add-step code (lambda (next) (move-step next register from))))))
+
+;;; Tests
+
+(defun write-test (node code)
+  "Write what NODE, a test, computes in any case.  Return a function from the closures to call next,
+where it is true and where it is false, to the closure that decides."
+  (node-case (:test node)
+    (:true () (lambda (then else) (declare (ignore else)) then))
+    (:false () (lambda (then else) (declare (ignore then)) else))
+    (:not (test)
+      (let ((decide (write-test test code)))
+        (lambda (then else) (funcall decide else then))))
+    (:and (a b)
+      (let ((first (write-test a code)) (second (write-test-aside b code)))
+        (lambda (then else) (funcall first (funcall second then else) else))))
+    (:or (a b)
+      (let ((first (write-test a code)) (second (write-test-aside b code)))
+        (lambda (then else) (funcall first then (funcall second then else)))))
+    (:constrained (slot)
+      (lambda (then else) (constrained-step then else (+ +blocked+ slot))))
+    (:comparison (comparison a b)
+      (let ((a (write-number a code)) (b (write-number b code)))
+        (lambda (then else) (funcall (comparison-step comparison) then else a b))))))
+
+(defun write-test-aside (node code)
+  "As WRITE-TEST, of a test that is not always run: the closure that decides comes after what NODE
+computes."
+  (let* ((code (branch code))
+         (decide (write-test node code)))
+    (lambda (then else) (link code (funcall decide then else)))))
+
+(defun constrained-step (then else slot)
+  (declare (function then else) (type register slot))
+  (lambda (registers)
+    (declare (type registers registers))
+    (if (= 1d0 (aref registers slot)) (funcall then registers) (funcall else registers))))
+
+;;; Programs
+
+(defun finish-program (code results)
+  "Return the program of CODE, which leaves its results in the registers RESULTS, a list."
+  (make-program :function (link code (constantly t)) :results (coerce results 'register-vector)))
+
+(defun numbers-program (nodes layout)
+  "Return the program of NODES, which give numbers."
+  (let ((code (new-code layout)))
+    (finish-program code (loop for node in nodes collect (write-number node code)))))
+
+(defun six-program (node layout)
+  "Return the program of NODE, which gives six numbers."
+  (let ((code (new-code layout)))
+    (finish-program code (write-six node code))))
+
+(defun test-program (node layout)
+  "Return the program of NODE, a test."
+  (let* ((code (new-code layout))
+         (decide (write-test node code)))
+    (add-step code (lambda (next) (funcall decide next (constantly nil))))
+    (finish-program code '())))
+
+(defun comparison-programs (node layout)
+  "Return an alist from the comparisons in the test NODE to programs of their operands."
+  (node-case (:test node)
+    ((:true :false :constrained) () '())
+    (:not (test) (comparison-programs test layout))
+    ((:and :or) (a b) (append (comparison-programs a layout) (comparison-programs b layout)))
+    (:comparison (comparison &rest operands)
+      (declare (ignore comparison))
+      (list (cons node (numbers-program operands layout))))))
