@@ -21,32 +21,10 @@
   (when comment
     (format stream "~{~a~^ ~}~%" comment)))
 
-(defun sentence-text (words surfaces)
-  "Return a sentence in words: \"S1 and S2 are PARALLEL\", \"OBJECT HAS FREE CORNERS\"."
-  (if surfaces
-      (format nil "~{~a~#[~; and ~:;, ~]~} ~:[is~;are~] ~a" surfaces (rest surfaces) words)
-      words))
-
 (defun antecedent-text (clause)
   (let* ((form (clause-form clause))
          (text (sentence-text (predicate-text (clause-predicate clause)) (find-if #'consp form))))
     (if (clause-negated clause) (format nil "nothing says that ~a" text) text)))
-
-(defun action-text (action)
-  (let ((operands (action-operands action))
-        (verb (action-verb action)))
-    (cond ((string= verb "REMEMBER")
-           (format nil "remember that ~a" (sentence-text (predicate-text (action-predicate action))
-                                                         (find-if #'consp operands))))
-          ((string= verb "TRY")
-           (format nil "try ~a~@[ with ~{~a~^, ~}~]" (first operands)
-                   (loop for element in (second operands)
-                         for slot across +slots+
-                         unless (name= element "?")
-                           collect (format nil "~a = ~a" slot element))))
-          ((string= verb "KEEP") "keep the best grasp, and stop")
-          ((string= verb "CANT") (format nil "stop: can't ~{~a~^ ~}" operands))
-          (t (form-text (action-form action))))))
 
 (defun testers (predicate knowledge)
   "Return the names of the rules that test PREDICATE."
@@ -70,7 +48,8 @@ who tests what it derives.  Returns the rule."
       (write-comment (rule-comment rule) stream)
       (format stream "In words: if ~{~a~^, and ~}, then ~{~a~^; then ~}.~%"
               (mapcar #'antecedent-text (rule-clauses rule))
-              (mapcar #'action-text (rule-actions rule)))
+              (loop for action in (rule-actions rule)
+                    collect (describe-action (verb-key (action-verb action)) action)))
       (dolist (predicate (remove-duplicates (mapcar #'clause-predicate (rule-clauses rule))
                                             :from-end t))
         (format stream "~a comes from ~a.~%" (predicate-text predicate)

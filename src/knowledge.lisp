@@ -84,8 +84,9 @@ What is wrong is left out."
 (defun tried-names (form)
   "Return the names of the grasps that the rule FORM tries."
   (loop for action in (rest (find-if (lambda (part) (part-p part "THEN")) form))
-        when (and (part-p action "TRY") (consp (rest action)) (namep (second action)))
-          collect (symbol-name (second action))))
+        when (and (consp action) (namep (first action)))
+          append (mapcar #'symbol-name (action-mentions (verb-key (first action))
+                                                        (rest action)))))
 
 (defun check-tried (graspbase rule-forms)
   "Warn of grasps that no rule tries."

@@ -302,6 +302,16 @@ return true as the second value."
                 (try-matchings memory grasp (suggested-matchings set slots binding))
                 nil))))))
 
+(defmethod action-mentions ((verb (eql :try)) operands)
+  (and (consp operands) (namep (first operands)) (list (first operands))))
+
+(defmethod describe-action ((verb (eql :try)) action)
+  (destructuring-bind (grasp &optional suggestion) (action-operands action)
+    (format nil "try ~a~@[ with ~{~a~^, ~}~]" grasp
+            (loop for element in suggestion
+                  for slot across +slots+
+                  unless (name= element "?") collect (format nil "~a = ~a" slot element)))))
+
 (define-action :try (action rulebase)
   (let* ((name (first (action-operands action)))
          (graspbase (rulebase-client rulebase))
@@ -325,3 +335,7 @@ return true as the second value."
                 (declare (ignore memory binding))
                 stop)))
       (complain (action-form action) "KEEP is (KEEP BEST)")))
+
+(defmethod describe-action ((verb (eql :keep)) action)
+  (declare (ignore action))
+  "keep the best grasp, and stop")

@@ -97,8 +97,8 @@
                                (remember both ,(list a b)))))))))
 
 (defun exchanging-rules (knowledge)
-  "Return those rules of KNOWLEDGE that have exchangeable variables."
-  (remove-if-not #'supergrip-chainer::exchangeable-pairs (supergrip:knowledge-rules knowledge)))
+  "Return those rules of KNOWLEDGE that have interchangeable variables."
+  (remove-if-not #'supergrip-chainer::interchangeable-pairs (supergrip:knowledge-rules knowledge)))
 
 (defun random-rules (state)
   "Return the forms of a random rule base."
@@ -175,7 +175,7 @@ order of predicates."
             "~{~s~%~}" rules)))
     ;; Rules that never fire would agree about nothing.
     (is (> fired 10000) "only ~d facts were remembered" fired)
-    (is (> exchanging 200) "only ~d rules have exchangeable variables" exchanging)))
+    (is (> exchanging 200) "only ~d rules have interchangeable variables" exchanging)))
 
 ;;; Random grasps.  The reference engine lets Lisp itself compile their forms.
 

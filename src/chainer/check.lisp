@@ -39,8 +39,11 @@ WORDS as strings, the texts of its SURFACES, sorted."
                     when use collect use)
               (loop for action in (parts "THEN")
                     for k from 1
-                    for use = (and (proper action) (name= (first action) "REMEMBER")
-                                   (sentence-use (rest action) action number name
+                    for sentence = (and (proper action) (namep (first action))
+                                        (action-conclusion (verb-key (first action))
+                                                           (rest action)))
+                    for use = (and sentence
+                                   (sentence-use sentence action number name
                                                  (format nil "action ~d" k)))
                     when use collect use)))))
 

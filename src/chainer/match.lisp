@@ -20,7 +20,7 @@
 ;;;; Tests and filters bind nothing, so that they come before their turn changes neither which
 ;;;; bindings are found nor their order.
 ;;;;
-;;;; Of bindings that do the same, one is enough: see twins.lisp.
+;;;; Of bindings that do the same, one is enough: see symmetry.lisp.
 
 (in-package :supergrip-chainer)
 
@@ -31,7 +31,7 @@
 
 (defun compile-antecedent (rule)
   "Return the matcher of RULE.  It leaves out some of the bindings that would do nothing."
-  (let ((*exchangeable* (exchangeable-pairs rule)))
+  (let ((*interchangeable* (interchangeable-pairs rule)))
     (compile-clauses (rule-clauses rule) '())))
 
 (declaim (inline find-bindings))
@@ -185,19 +185,19 @@
 and goes on with CLAUSES."
   (let* ((filter-clauses (filter-clauses place clauses bound))
          (filters (pack-filters filter-clauses place))
-         ;; Of twins the one with the ascending faces comes first.
-         (twin (find-if (lambda (other) (exchangeable-p (list place other))) *ascending*))
+         ;; Of two such bindings the one with the ascending faces comes first.
+         (partner (find-if (lambda (other) (interchangeable-p (list place other))) *ascending*))
          (next (let ((*ascending* (cons place *ascending*)))
                  (compile-clauses (set-difference-in-order clauses filter-clauses)
                                   (cons place bound)))))
-    (declare (type (integer 0 5) place) (type (or null (integer 0 5)) twin) (function next)
+    (declare (type (integer 0 5) place) (type (or null (integer 0 5)) partner) (function next)
              (type filters filters))
     (lambda (memory binding)
       (declare (type memory memory) (type packed binding))
       (let ((left (allowed-faces memory binding filters)))
         (declare (type (unsigned-byte 6) left))
-        (when twin
-          (setf left (logandc2 left (1- (face-bit binding twin)))))
+        (when partner
+          (setf left (logandc2 left (1- (face-bit binding partner)))))
         (loop until (zerop left)
               do (let ((face (only-face (logand left (- left)))))
                    (setf left (logand left (1- left)))
@@ -252,7 +252,7 @@ of those that are faces, and the variables."
                          (funcall next memory
                                   (pack-with binding place (only-face left))))))))))))))
 
-(defmacro do-open-facts ((fact left allowed) (clause unbound filters) (memory binding) &body body)
+(defmacro fact-matcher ((fact left allowed) (clause unbound filters) (memory binding) &body body)
   "Return a matcher, a function of MEMORY and BINDING, that runs BODY with each FACT that can meet
 CLAUSE, in their order.  LEFT is the set of its faces that the variables UNBOUND can take, as many
 as they are, and ALLOWED that of the faces that FILTERS leave to the first of them."
@@ -284,8 +284,8 @@ as they are, and ALLOWED that of the faces that FILTERS leave to the first of th
 FILTERS, two."
   (destructuring-bind ((place1 place2) (filters1 filters2)) (list unbound filters)
     (declare (type (integer 0 5) place1 place2) (type filters filters1 filters2) (function next))
-    (let ((twins (exchangeable-p unbound)))
-      (do-open-facts (fact left allowed) (clause unbound filters1) (memory binding)
+    (let ((symmetric (interchangeable-p unbound)))
+      (fact-matcher (fact left allowed) (clause unbound filters1) (memory binding)
         (flet ((give (face1 face2)
                  (when (logbitp face1 allowed)
                    (let ((binding (pack-with binding place1 face1)))
@@ -295,7 +295,7 @@ FILTERS, two."
           (let* ((face1 (first-face fact left))
                  (face2 (only-face (logandc2 left (ash 1 face1)))))
             (give face1 face2)
-            (unless twins
+            (unless symmetric
               (give face2 face1))))))))
 
 (defun compile-walk-for-several (clause unbound filters next)
@@ -305,7 +305,7 @@ FILTERS, a list."
     (declare (type filters filters1))
     (let ((places (compile-places unbound others next)))
       (declare (function places))
-      (do-open-facts (fact left allowed) (clause unbound filters1) (memory binding)
+      (fact-matcher (fact left allowed) (clause unbound filters1) (memory binding)
         (funcall places memory binding fact left allowed)))))
 
 (defun compile-places (variables filters next)

@@ -23,7 +23,9 @@ one generic function.")
    #:rulebase #:build-rulebase #:rulebase-rules #:rulebase-predicates
    #:find-rule #:find-predicate #:rulebase-client
    ;; actions
-   #:loose-surface-p #:list-surfaces #:compile-action #:define-action #:action-verbs #:parse-surfaces #:parse-sentence
+   #:define-action #:compile-action #:action-verbs #:verb-key #:action-conclusion #:action-mentions
+   #:symmetric-action-p #:describe-action #:sentence-text
+   #:loose-surface-p #:list-surfaces #:parse-surfaces #:parse-sentence
    #:term-variable-p #:term-value #:instantiate #:*rule*
    ;; running
    #:run-rules #:stop #:stop-verdict #:stop-rule #:stop-words #:make-stop

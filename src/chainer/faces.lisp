@@ -1,4 +1,4 @@
-;;;; surfaces.lisp -- the six faces of a box, and lists of them in one integer.
+;;;; faces.lisp -- the six faces of a box, and lists of them in one integer.
 ;;;;
 ;;;; A face is its place, 0 to 5, in the order in which the paper's session enumerates faces.
 ;;;; A list of distinct faces is packed: bits 0-5 are the set of its members, and bits 6+3j to

@@ -1,28 +1,30 @@
-;;;; twins.lisp -- bindings of which one is enough.
+;;;; symmetry.lisp -- bindings of which one is enough.
 ;;;;
 ;;;; Many a rule says the same after two of its variables were exchanged, as (ADJACENT (s1 s2)).
 ;;;; Every binding of it then has a twin, and the later of both does nothing: a run leaves it out.
 
 (in-package :supergrip-chainer)
 
-(defvar *exchangeable* '()
+(defvar *interchangeable* '()
   "The pairs of variables, a list of lists, of whose twin bindings one is enough.")
 
 (defvar *ascending* '()
   "Those of the variables bound so far that take their faces in ascending order, the latest first.")
 
-(defun exchangeable-p (pair)
-  (or (member pair *exchangeable* :test #'equal)
-      (member (reverse pair) *exchangeable* :test #'equal)))
+(defun interchangeable-p (pair)
+  (or (member pair *interchangeable* :test #'equal)
+      (member (reverse pair) *interchangeable* :test #'equal)))
 
-(defun exchangeable-pairs (rule)
+(defun interchangeable-pairs (rule)
   "Return the pairs of variables whose exchange leaves RULE as it was: its clauses, and what its
 actions do.  Lists of surfaces are unordered."
   (let ((variables (loop for place below (length (rule-variables rule)) collect place)))
     (loop for (a . others) on variables
           append (loop for b in others
                        when (and (same-clauses-p rule a b)
-                                 (every (lambda (action) (same-action-p action a b))
+                                 (every (lambda (action)
+                                          (symmetric-action-p (verb-key (action-verb action))
+                                                              action a b))
                                         (rule-actions rule)))
                          collect (list a b)))))
 
@@ -37,8 +39,3 @@ actions do.  Lists of surfaces are unordered."
       (null (set-exclusive-or (mapcar #'key clauses)
                               (mapcar (lambda (clause) (key (exchanged clause))) clauses)
                               :test #'equal)))))
-
-(defun same-action-p (action a b)
-  (or (action-once action)
-      (and (string= (action-verb action) "REMEMBER")
-           (eq (null (member a (action-terms action))) (null (member b (action-terms action)))))))

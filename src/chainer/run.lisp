@@ -1,4 +1,4 @@
-;;;; chainer.lisp -- the rules run, in order, each once.
+;;;; run.lisp -- the rules run, in order, each once.
 
 (in-package :supergrip-chainer)
 
@@ -49,7 +49,7 @@ WORDS what it said, as strings."
                     :counts (packs count)
                     :used (packs count)
                     :awake (copy-seq (rulebase-awake rulebase))
-                    :wakes (rulebase-wakes rulebase)
+                    :sleepers (rulebase-sleepers rulebase)
                     :bindings (packs 16)
                     :client client))))
 
@@ -114,6 +114,18 @@ is the same for all), then its second.  Returns the STOP of the action that ende
                 (action-function action)
                 (remember-function predicate terms (action-number action)))))))
 
+(defmethod action-conclusion ((verb (eql :remember)) operands)
+  operands)
+
+(defmethod symmetric-action-p ((verb (eql :remember)) action a b)
+  ;; A list of surfaces is unordered.
+  (or (action-once action)
+      (eq (null (member a (action-terms action))) (null (member b (action-terms action))))))
+
+(defmethod describe-action ((verb (eql :remember)) action)
+  (format nil "remember that ~a" (sentence-text (predicate-text (action-predicate action))
+                                                (find-if #'consp (action-operands action)))))
+
 (defun remember-function (predicate terms number)
   "Return the function of the action NUMBER of the rule being read, which remembers PREDICATE of
 TERMS."
@@ -145,3 +157,6 @@ TERMS."
                 (lambda (memory binding)
                   (declare (ignore memory binding))
                   stop))))))
+
+(defmethod describe-action ((verb (eql :cant)) action)
+  (format nil "stop: can't ~{~a~^ ~}" (action-operands action)))

@@ -1,4 +1,4 @@
-;;;; memory.lisp -- predicates and the working memory: remember and recall.
+;;;; facts.lisp -- predicates and the working memory: remember and recall.
 
 (in-package :supergrip-chainer)
 
@@ -34,7 +34,7 @@ number.")
 FACT-BITS).  FACTS holds the packed lists in the order in which they were remembered, those of each
 predicate from +MOST-FACTS+ times its index on, and COUNTS how many it has.  USED holds the indices
 of the predicates that have facts, USED-COUNT of them.  AWAKE has a bit for each rule that may fire,
-and WAKES, for each predicate, the list of the rules that its first fact wakes (see SET-WATCHES).
+and SLEEPERS, for each predicate, the list of the rules that its first fact wakes (see PUT-TO-SLEEP).
 BINDINGS holds the FOUND bindings of the rule being run.  LOG holds the events of a run, the newest
 first.  CLIENT is whatever the actions of the lower level need."
   (relations nil :type relations)
@@ -43,7 +43,7 @@ first.  CLIENT is whatever the actions of the lower level need."
   (used nil :type packs)
   (used-count 0 :type fixnum)
   (awake nil :type simple-bit-vector)
-  (wakes nil :type simple-vector)
+  (sleepers nil :type simple-vector)
   (bindings nil :type packs)
   (found 0 :type fixnum)
   (log '() :type list)
@@ -78,13 +78,13 @@ whose number is the set."
   "True if MEMORY holds that PREDICATE is true of the faces of PACKED, in any order."
   (known-p memory (predicate-index predicate) (fact-bits (predicate-arity predicate) packed)))
 
-(declaim (inline note-use put-fact))
-(defun note-use (memory index)
+(declaim (inline wake-rules put-fact))
+(defun wake-rules (memory index)
   "Note that the predicate INDEX has its first fact, and wake the rules that wait for it."
   (declare (type memory memory) (type (unsigned-byte 24) index))
   (setf (aref (memory-used memory) (memory-used-count memory)) index)
   (incf (memory-used-count memory))
-  (dolist (rule (svref (memory-wakes memory) index))
+  (dolist (rule (svref (memory-sleepers memory) index))
     (setf (sbit (memory-awake memory) rule) 1)))
 
 (defun put-fact (memory predicate packed)
@@ -99,7 +99,7 @@ whose number is the set."
             (aref (memory-facts memory) (+ (* +most-facts+ index) count)) packed
             (aref (memory-counts memory) index) (1+ count))
       (when (zerop count)
-        (note-use memory index))
+        (wake-rules memory index))
       t)))
 
 (defun remember (memory predicate packed)

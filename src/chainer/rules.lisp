@@ -1,0 +1,314 @@
+;;;; rules.lisp -- a rule is read from its form, and checked.
+
+(in-package :supergrip-chainer)
+
+(defstruct clause
+  "One clause of an antecedent.  TERMS are variables and faces (see TERM-VALUE)."
+  (negated nil) (predicate nil) (terms '() :type list) (form nil))
+
+(defstruct action
+  "One action of a consequent.  VERB is its first word, a string, OPERANDS the rest of FORM.
+FUNCTION is called with a memory and a binding; it returns NIL, or a STOP to end the run.  ONCE is
+true if no binding after the first makes a difference.  PREDICATE and TERMS are what it remembers,
+TARGET what else it names, if anything."
+  (verb "" :type string) (operands '()) (form nil)
+  (function nil :type (or null function)) (once nil)
+  (predicate nil) (terms '() :type list) (target nil))
+
+(defstruct rule
+  "A rule.  COMMENT is the list of the lines before it in its file.  VARIABLES are the names of its
+variables; the place of one is its number."
+  (name nil) (form nil) (file nil) (line nil) (comment '()) (index 0 :type fixnum)
+  (variables '() :type list)
+  (clauses '() :type list)
+  (actions '() :type list)
+  (matcher nil :type (or null function)))
+
+(defmethod print-object ((rule rule) stream)
+  (print-unreadable-object (rule stream :type t)
+    (plainly
+      (format stream "~a" (rule-name rule)))))
+
+(defstruct (rulebase (:constructor %make-rulebase))
+  "Ordered rules and the predicates that they speak of.  AWAKE and SLEEPERS are what PUT-TO-SLEEP says.
+CLIENT is what the actions of the lower level are compiled against."
+  (rules #() :type simple-vector)
+  (predicates #() :type simple-vector)
+  (awake #* :type simple-bit-vector)
+  (sleepers #() :type simple-vector)
+  (table (make-hash-table :test #'equal))
+  (client nil))
+
+(defmethod print-object ((rulebase rulebase) stream)
+  (print-unreadable-object (rulebase stream :type t)
+    (plainly
+      (format stream "~d rules" (length (rulebase-rules rulebase))))))
+
+(defun find-rule (rulebase name)
+  "Return the rule of RULEBASE that has NAME, or NIL."
+  (find name (rulebase-rules rulebase) :key #'rule-name :test #'string-equal))
+
+(defun find-predicate (rulebase words)
+  "Return the predicate of RULEBASE that has WORDS, a list of strings, or NIL."
+  (gethash words (rulebase-table rulebase)))
+
+;;; Terms: a variable is its number, 0 to 5; a face f is the number -1-f.
+
+(declaim (inline term-variable-p term-value instantiate))
+(defun term-variable-p (term)
+  "True if TERM is a variable, not a face."
+  (declare (fixnum term))
+  (>= term 0))
+
+(defun term-value (term binding)
+  "Return the face that TERM stands for under BINDING, a packed list."
+  (declare (type (integer -6 5) term) (type packed binding))
+  (if (term-variable-p term)
+      (pack-ref binding term)
+      (- -1 term)))
+
+(defun instantiate (terms binding)
+  "Return TERMS under BINDING, packed in the order of TERMS."
+  (let ((packed 0))
+    (declare (type packed packed))
+    (loop for term in terms
+          for place of-type (integer 0 6) from 0
+          do (setf packed (pack-with packed place (term-value term binding))))
+    packed))
+
+;;; Sentences
+
+(defvar *rulebase*)
+(setf (documentation '*rulebase* 'variable) "The rule base being built.")
+(defvar *rule*)
+(setf (documentation '*rule* 'variable) "The rule being read.")
+
+(defvar *clause-failed* nil "True if a clause of the rule being read is wrong.")
+
+(defun variable-name-p (name)
+  (and (namep name)
+       (char= (char (symbol-name name) 0) #\S)
+       (> (length (symbol-name name)) 1)))
+
+(defun intern-variable (name bind form)
+  "Return the number of the variable NAME; new ones are allowed if BIND is true."
+  (or (position (symbol-name name) (rule-variables *rule*) :test #'string=)
+      (cond ((not (or bind *clause-failed*)) ; it may stand in the clause that is wrong
+             (complain form "the variable ~a stands in no clause of the antecedent" name))
+            ((= (length (rule-variables *rule*)) 6)
+             (complain form "more than six variables: a box has six surfaces"))
+            (t
+             (setf (rule-variables *rule*)
+                   (append (rule-variables *rule*) (list (symbol-name name))))
+             (1- (length (rule-variables *rule*)))))))
+
+(defun parse-surface (element bind form)
+  "Return the term that ELEMENT of the list FORM stands for, or NIL after a complaint."
+  (cond ((not (namep element))
+         (complain form "~a is not a surface" (form-text element)))
+        ((surface-index element) (- -1 (surface-index element)))
+        ((variable-name-p element) (intern-variable element bind form))
+        (t (complain form "~a is neither a surface (X1 to Z2) nor a variable ~
+                           (a name that begins with S, as S1)" element))))
+
+(defun parse-surfaces (list bind)
+  "Return the terms of LIST, distinct surfaces and variables.  Variables that the rule does not
+have yet are allowed if BIND is true.  Complains, and returns NIL and true, of anything else."
+  (let ((terms (loop for element in list collect (parse-surface element bind list))))
+    (cond ((member nil terms) (values nil t))
+          ((/= (length terms) (length (remove-duplicates terms)))
+           (complain list "the same surface twice in ~a: lists of surfaces hold distinct ones"
+                     (form-text list))
+           (values nil t))
+          (t (values terms nil)))))
+
+(defun intern-predicate (words arity form &key given)
+  "Return the predicate of WORDS, made if it is new, with lists of ARITY surfaces."
+  (let ((predicate (gethash words (rulebase-table *rulebase*))))
+    (cond ((null predicate)
+           (setf (gethash words (rulebase-table *rulebase*))
+                 (make-predicate :words words :arity arity :given given
+                                 :index (hash-table-count (rulebase-table *rulebase*)))))
+          ((/= arity (predicate-arity predicate))
+           (complain form "~a takes ~[no list of surfaces~;1 surface~:;~:*~d surfaces~], here ~
+                           it has ~[none~:;~:*~d~]"
+                     (predicate-text predicate) (predicate-arity predicate) arity))
+          (t predicate))))
+
+(defun loose-surface-p (name)
+  "True if NAME, a word of a sentence, can only be meant as a surface: X1 to Z2, S1 and so on."
+  (and (namep name)
+       (or (surface-index name)
+           (and (variable-name-p name) (every #'digit-char-p (subseq (symbol-name name) 1))))))
+
+(defun list-surfaces (words &optional list)
+  "Return the sentence WORDS, those that are surfaces put into a list at its end, before LIST."
+  (append (remove-if #'loose-surface-p words)
+          (list (append (remove-if-not #'loose-surface-p words) list))))
+
+(defun parse-sentence (words form bind)
+  "Return the predicate and the terms of the sentence WORDS, the words of FORM that matter: names,
+the last perhaps a list of surfaces.  Returns NIL after a complaint."
+  (let* ((last (first (last words)))
+         (list (and (consp last) last))
+         (names (if list (butlast words) words)))
+    (cond ((null names)
+           (complain form "an empty sentence"))
+          ((find-if #'loose-surface-p names)
+           (complain form "surfaces stand in a list of their own, at the end: ~a"
+                     (form-text (list-surfaces names list))))
+          ((some (lambda (name) (not (namep name))) names)
+           (complain form "~a: a sentence is made of words, and may end in one list of surfaces"
+                     (form-text form)))
+          (t
+           (multiple-value-bind (terms bad) (if list (parse-surfaces list bind) '())
+             (unless bad
+               (let ((predicate (intern-predicate (mapcar #'symbol-name names) (length terms) form)))
+                 (and predicate (values predicate terms)))))))))
+
+(defun parse-clause (form)
+  "Return the clause that FORM spells, or NIL after a complaint."
+  (cond ((not (consp form))
+         (complain form "~a is not a clause: a clause is a list" (form-text form)))
+        ((and (name= (first form) "NOT") (consp (second form)) (name= (first (second form)) "NOT"))
+         (complain form "NOT inside NOT"))
+        ((and (name= (first form) "NOT") (consp (second form)) (namep (first (second form))))
+         (if (surface-list-p (second form))
+             (complain form "NOT ~a names no predicate" (form-text (second form)))
+             (complain form "write (NOT ~{~a~^ ~}): NOT stands before the words, without a list ~
+                             of its own" (mapcar #'form-text (second form)))))
+        (t
+         (let* ((not-p (name= (first form) "NOT"))
+                (words (if not-p (rest form) form))
+                (no-count (count-if (lambda (word) (name= word "NO")) words)))
+           (cond ((or (> no-count 1) (and not-p (plusp no-count))
+                      (find-if (lambda (word) (name= word "NOT")) words))
+                  (complain form "~a is negated twice" (form-text form)))
+                 (t
+                  (multiple-value-bind (predicate terms)
+                      (parse-sentence (remove-if (lambda (word) (name= word "NO")) words) form t)
+                    (and predicate
+                         (make-clause :negated (or not-p (plusp no-count)) :predicate predicate
+                                      :terms terms :form form)))))))))
+
+(defun surface-list-p (list)
+  (every (lambda (element) (and (namep element)
+                                (or (surface-index element) (variable-name-p element))))
+         list))
+
+;;; Actions
+
+(defvar *action-verbs* '() "The verbs that DEFINE-ACTION has defined.")
+
+(defun action-verbs ()
+  "Return the verbs that actions may begin with, as strings, in the order of their definition."
+  *action-verbs*)
+
+(defgeneric compile-action (verb action rulebase)
+  (:documentation "Fill ACTION, the FUNCTION at least, for its VERB, a keyword; complain of what is
+wrong in it.  This is where an action is attached: DEFINE-ACTION adds a method.")
+  (:method (verb action rulebase)
+    (declare (ignore rulebase))
+    (complain (action-form action) "~a is no action; actions are ~{~a~^, ~}~a" verb
+              (action-verbs) (suggestion (string verb) (action-verbs)))))
+
+(defun sentence-text (words surfaces)
+  "Return a sentence in words: \"S1 and S2 are PARALLEL\", \"OBJECT HAS FREE CORNERS\"."
+  (if surfaces
+      (format nil "~{~a~#[~; and ~:;, ~]~} ~:[is~;are~] ~a" surfaces (rest surfaces) words)
+      words))
+
+;;; What else is known of an action.  By default, nothing; a verb adds methods.
+
+(defgeneric action-conclusion (verb operands)
+  (:documentation "Return the sentence that an action VERB, a keyword, of OPERANDS remembers, or NIL.")
+  (:method (verb operands)
+    (declare (ignore verb operands))
+    nil))
+
+(defgeneric action-mentions (verb operands)
+  (:documentation "Return the names, symbols, of what an action VERB of OPERANDS uses of the lower
+level, as the grasp that it tries.")
+  (:method (verb operands)
+    (declare (ignore verb operands))
+    '()))
+
+(defgeneric symmetric-action-p (verb action a b)
+  (:documentation "True if ACTION does the same after the variables A and B were exchanged.")
+  (:method (verb action a b)
+    (declare (ignore verb a b))
+    (action-once action)))
+
+(defgeneric describe-action (verb action)
+  (:documentation "Return what ACTION does, in words.")
+  (:method (verb action)
+    (declare (ignore verb))
+    (form-text (action-form action))))
+
+(defun verb-key (verb)
+  "Return the keyword that VERB, a name or a string, stands for in the methods above; or VERB itself if
+no action has it."
+  (or (find-symbol (string verb) :keyword) verb))
+
+(defun adjoin-last (verb verbs)
+  (if (member verb verbs :test #'string=) verbs (append verbs (list verb))))
+
+(defmacro define-action (verb (action rulebase) &body body)
+  "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, complains of what
+is wrong, and stores the ACTION-FUNCTION.  That must not keep the memory that it is called with,
+which serves other runs, too; and it may be called again when a question about the run is asked."
+  `(progn
+     (setf *action-verbs* (adjoin-last ,(symbol-name verb) *action-verbs*))
+     (defmethod compile-action ((verb (eql ,verb)) ,action ,rulebase)
+       (declare (ignorable ,rulebase))
+       ,@body)))
+
+(defun parse-action (form)
+  "Return the action that FORM spells, or NIL after a complaint."
+  (if (not (and (consp form) (namep (first form))))
+      (complain form "~a is not an action: an action is a list that begins with ~{~a~^, ~}"
+                (form-text form) (action-verbs))
+      (let ((action (make-action :verb (symbol-name (first form)) :operands (rest form)
+                                 :form form)))
+        (compile-action (verb-key (first form)) action *rulebase*)
+        (and (action-function action) action))))
+
+;;; Rules
+
+(defun parse-parts (parse forms label)
+  "Return what PARSE makes of each of FORMS, the place in the reports being LABEL and a number."
+  (loop for form in forms
+        for number from 1
+        for *place* = (format nil "~a ~d" label number)
+        collect (let ((*form* (if (consp form) form *form*)))
+                  (funcall parse form))))
+
+(defun parse-rule (form)
+  "Return the rule that FORM, (RULE name (IF clause...) (THEN action...)), spells.
+NIL after a complaint."
+  (let* ((name (and (consp form) (namep (second form)) (second form)))
+         (*subject* (if name (format nil "RULE ~a" name) "RULE without a name"))
+         (*place* nil)
+         (*form* form)
+         (*rule* (make-rule :name (and name (symbol-name name)) :form form :file *file*
+                            :line (and *lines* (gethash form *lines*))
+                            :comment (and *comments* (gethash form *comments*)))))
+    (cond ((not (part-p form "RULE"))
+           (let ((*subject* nil))
+             (complain form "~a is no rule: a rule file holds (RULE name (IF clause...) (THEN ~
+                             action...))" (form-text form))))
+          ((or (null name) (/= (length form) 4)
+               (not (part-p (third form) "IF")) (not (part-p (fourth form) "THEN")))
+           (complain form "a rule is (RULE name (IF clause...) (THEN action...))"))
+          ((null (rest (third form)))
+           (complain form "IF has no clause"))
+          ((null (rest (fourth form)))
+           (complain form "THEN has no action"))
+          (t
+           (setf (rule-clauses *rule*) (parse-parts #'parse-clause (rest (third form)) "clause"))
+           (let ((*clause-failed* (member nil (rule-clauses *rule*))))
+             (setf (rule-actions *rule*)
+                   (parse-parts #'parse-action (rest (fourth form)) "action")))
+           (and (notany #'null (rule-clauses *rule*))
+                (notany #'null (rule-actions *rule*))
+                *rule*)))))
