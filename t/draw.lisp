@@ -256,6 +256,37 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                                                      "x.svg")
                (supergrip:supergrip-error (condition) (princ-to-string condition))))))
 
+(test what-other-grippers-can-not-show-is-an-error-of-ours
+  (flet ((knowledge (from to)
+           (let* ((text (uiop:read-file-string (own-file "grasps.lisp")))
+                  (place (search from text)))
+             (uiop:with-temporary-file (:pathname grasps :stream out)
+               (write-string (subseq text 0 place) out)
+               (write-string to out)
+               (write-string (subseq text (+ place (length from))) out)
+               (finish-output out)
+               (handler-bind ((warning #'muffle-warning))
+                 (supergrip:load-knowledge :grasps grasps))))))
+    (with-folder (folder)
+      (signals supergrip-draw:drawing-error
+        (supergrip-draw:draw-offset (in-folder folder "x.svg")
+                                    :knowledge (knowledge "DIST-PINCH    12" "DIST-PINCH    2")))
+      (signals supergrip-draw:drawing-error
+        (supergrip-draw:draw-offset (in-folder folder "x.svg")
+                                    :knowledge (knowledge "FINGER-LENGTH 3.2"
+                                                          "FINGER-LENGTH 1e8"))))))
+
+(test pictures-do-not-depend-on-float-traps
+  (let ((plan (supergrip:plan (sized-box 12 2 2))))
+    (with-folder (folder)
+      (supergrip-draw:report plan (in-folder folder "a.html"))
+      (sb-int:with-float-traps-masked (:overflow :invalid :divide-by-zero :inexact)
+        (supergrip-draw:report plan (in-folder folder "b.html"))
+        (signals arithmetic-error
+          (supergrip-draw::decimal (* most-positive-double-float 10))))
+      (is (equal (uiop:read-file-string (in-folder folder "a.html"))
+                 (uiop:read-file-string (in-folder folder "b.html")))))))
+
 (test extreme-boxes-that-can-be-drawn-are
   (with-folder (folder)
     (loop for size in '((1d-6 1d-6 1d9) (1d9 1d9 1d-6) (5 1d9 5) (5 1d-6 1d9) (1d-6 1d-6 1d-6))

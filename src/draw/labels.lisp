@@ -23,7 +23,7 @@
 
 (defun note-strokes (points &optional (width 1))
   "Have labels avoid the line of WIDTH through POINTS."
-  (loop for (a b) on points while b do (push (list a b (/ width 2)) *strokes*)))
+  (loop for (a b) on points while b do (push (list a b (* 0.5d0 width)) *strokes*)))
 
 (defun overlap-p (r s)
   "True if the rectangles R and S overlap."
@@ -46,14 +46,21 @@
   (destructuring-bind (x y width height) rectangle
     (list (- x more) (- y more) (+ width (* 2 more)) (+ height (* 2 more)))))
 
-(defun segment-meets-p (a b rectangle)
-  "True if the line from A to B meets RECTANGLE."
-  (inside-part a b (outline-of rectangle)))
+(defun segment-meets-p (a b rectangle &optional (margin 0))
+  "True if the line from A to B meets RECTANGLE with MARGIN on each side."
+  (destructuring-bind ((p q) (r s)) (list a b)
+    (destructuring-bind (x y width height) rectangle
+      ;; Most lines are wholly on one side.
+      (and (not (and (< p (- x margin)) (< r (- x margin))))
+           (not (and (< q (- y margin)) (< s (- y margin))))
+           (not (and (> p (+ x width margin)) (> r (+ x width margin))))
+           (not (and (> q (+ y height margin)) (> s (+ y height margin))))
+           (inside-part a b (outline-of (grown rectangle margin)))))))
 
 (defun crossings (rectangle &optional (strokes *strokes*))
   "Return how many of STROKES cross RECTANGLE."
   (loop for (a b half) in strokes
-        count (segment-meets-p a b (grown rectangle (1+ half)))))
+        count (segment-meets-p a b rectangle (1+ half))))
 
 (defun outlines-meet-p (outline other)
   "True if two convex outlines have a point in common."
@@ -66,8 +73,9 @@
   "True if RECTANGLE touches nothing that is to be kept clear."
   (and (notany (lambda (other) (overlap-p rectangle other)) *obstacles*)
        (zerop (crossings rectangle *leaders*))
-       (let ((outline (outline-of rectangle)))
-         (notany (lambda (area) (outlines-meet-p outline area)) *areas*))))
+       (notany (lambda (area) (and (overlap-p rectangle (bounds area))
+                                   (outlines-meet-p (outline-of rectangle) area)))
+               *areas*)))
 
 ;;; Labels are asked for while a view is drawn, and placed when all of it is known.
 
@@ -87,8 +95,8 @@ to the point if it is far."
 (defun label-rectangle (text point class direction distance)
   "Return where TEXT stands so that its edge is DISTANCE from POINT in DIRECTION."
   (let* ((width (text-width text class)) (height (* 1.25 (class-size class)))
-         (x (+ (first point) (* distance (first direction)) (* 1/2 width (first direction))))
-         (y (+ (second point) (* distance (second direction)) (* 1/2 height (second direction)))))
+         (x (+ (first point) (* distance (first direction)) (* 0.5d0 width (first direction))))
+         (y (+ (second point) (* distance (second direction)) (* 0.5d0 height (second direction)))))
     (list (- x (/ width 2)) (- y (/ height 2)) width height)))
 
 (defun nearest-in (point rectangle)
@@ -105,7 +113,7 @@ to the point if it is far."
 (defun leader-cost (line)
   "Return the cost of the leader LINE, or NIL if it would cut a word."
   (destructuring-bind (a b) line
-    (unless (some (lambda (word) (segment-meets-p a b (grown word 2))) *words*)
+    (unless (some (lambda (word) (segment-meets-p a b word 2)) *words*)
       (+ 10
          (* 60 (loop for (p q) in *leaders* count (segments-cross-p a b p q)))
          (* 8 (loop for (p q) in *strokes* count (segments-cross-p a b p q)))
@@ -157,7 +165,7 @@ nowhere."
         (let ((line (and leader (leader-of point place away))))
           (when line
             (draw-line (first line) (second line) "thin")
-            (push (append line '(1)) *leaders*)))
+            (push (append line '(0.5d0)) *leaders*)))
         (put-label text place class)))))
 
 (defun label-weight (label)

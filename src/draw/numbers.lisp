@@ -6,9 +6,15 @@
 
 (defparameter +minus+ (code-char #x2212) "A true minus sign.")
 
+(defun finite (number)
+  "Return NUMBER; signal an error if it is infinite or not a number, as where traps are masked."
+  (if (<= (abs number) most-positive-double-float)
+      number
+      (error 'floating-point-overflow :operation 'finite :operands (list number))))
+
 (defun rounded (number digits)
   "Return the whole number nearest to NUMBER x 10^DIGITS, halves away from zero."
-  (let ((scaled (* (rationalize number) (expt 10 digits))))
+  (let ((scaled (* (rationalize (finite number)) (expt 10 digits))))
     (* (signum scaled) (floor (+ (abs scaled) 1/2)))))
 
 (defun fixed (number digits &optional (minus +minus+))
@@ -31,7 +37,7 @@
 
 (defun magnitude (number)
   "Return the power of ten of the first digit of NUMBER, not zero: 0 for 1 to 9.99."
-  (let* ((exact (abs (rational number)))
+  (let* ((exact (abs (rational (finite number))))
          (guess (floor (* (- (integer-length (numerator exact))
                              (integer-length (denominator exact)))
                           0.30103d0))))

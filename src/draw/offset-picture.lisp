@@ -104,6 +104,11 @@ whose top is at TOP."
 (defun draw-offset-case (across along caption x y width height scale knowledge)
   "Draw the box ACROSS x ALONG cm, how it is held, and the dimensions that matter."
   (multiple-value-bind (candidate plan) (offset-plan across along knowledge)
+    (unless candidate
+      (error 'drawing-error
+             :what "the offset"
+             :reason (format nil "PINCH-2-PARALLEL can't hold a box of ~a from above"
+                             (size-text (list across 5 along)))))
     (let* ((top (/ along 2))
            (middle (list (+ x (/ width 2) -20) (+ y 150 (* scale top))))
            (offset (third (candidate-offset candidate))))
@@ -146,5 +151,6 @@ is narrower than the distance of the fingers' bases, the inner links reach down 
 
 (defun draw-offset (file &key (knowledge *knowledge*))
   "Draw what the offset of a grasp is, on two boxes too tall for the gripper of KNOWLEDGE, into
-FILE, an SVG picture: the paper's Figure 2.  KNOWLEDGE must have PINCH-2-PARALLEL.  Returns FILE."
+FILE, an SVG picture: the paper's Figure 2.  KNOWLEDGE must have PINCH-2-PARALLEL, and its
+gripper one of the shipped one's size, or a DRAWING-ERROR says so.  Returns FILE."
   (drawing ("the offset") (save-picture (offset-picture knowledge) file)))
