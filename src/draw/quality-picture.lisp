@@ -40,12 +40,16 @@ y below."
     (+ y (* 6 24))))
 
 (defun ratio-number (number)
-  (if (< 1d-3 (abs number) 1d7) (decimal number 3) (quantity number 3)))
+  (if (< 1d-2 (abs number) 100) (decimal number 3) (quantity number 3)))
 
 (defun ratio-text (have need limiting)
-  (cond ((zerop need) "not needed")
-        (t (format nil "~a / ~a = ~a~:[~; ◀~]" (quantity have 4)
-                   (quantity need 4) (ratio-number (/ have need)) limiting))))
+  "Return HAVE, NEED and their ratio; the ratio alone where all of it is too long for its place."
+  (if (zerop need)
+      "not needed"
+      (let* ((ratio (ratio-number (/ have need)))
+             (all (format nil "~a / ~a = ~a" (quantity have 4) (quantity need 4) ratio)))
+        (format nil "~a~:[~; ◀~]" (if (> (length all) 21) (format nil "ratio ~a" ratio) all)
+                limiting))))
 
 (defun draw-candidate-quality (candidate candidates plan place x y width)
   "Draw the bars of CANDIDATE, the PLACEth best, in the scale of all CANDIDATES."
