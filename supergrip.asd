@@ -1,5 +1,7 @@
 ;;;; supergrip.asd -- the systems of SUPER-GRIP.
 
+#-sbcl (error "SUPER-GRIP needs SBCL; this is ~a." (lisp-implementation-type))
+
 (defsystem "supergrip"
   :description "An expert system that chooses the best grasp of a three-fingered gripper on a box."
   :version "0.1.0"
@@ -132,6 +134,7 @@
                (:file "explain")
                (:file "plain")
                (:file "misses")
+               (:file "repl")
                (:file "edit")
                (:file "json")
                (:file "record")

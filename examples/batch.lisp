@@ -3,8 +3,8 @@
 ;;;; See --help, and README.md, Batch.  The executable supergrip does the same and starts faster.
 
 ;;; A signal ends the script from here on; SBCL itself would end with status 0 or 1.
-(sb-sys:enable-interrupt sb-unix:sigterm :default)
-(sb-sys:enable-interrupt sb-unix:sigint :default)
+#+sbcl (sb-sys:enable-interrupt sb-unix:sigterm :default)
+#+sbcl (sb-sys:enable-interrupt sb-unix:sigint :default)
 
 (load (merge-pathnames "../src/boot.lisp" *load-truename*))
 

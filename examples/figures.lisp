@@ -2,7 +2,7 @@
 ;;;;
 ;;;;   sbcl --script examples/figures.lisp [DIRECTORY]
 ;;;;
-;;;; draws them into DIRECTORY, by default docs/ of this repository.  Needs Debian's cl-who.
+;;;; draws them into DIRECTORY, by default docs/ of this repository.  Needs cl-who.
 
 (load (merge-pathnames "../src/draw/boot.lisp" *load-truename*))
 (in-package :supergrip-user)
@@ -30,7 +30,7 @@
 (let* ((given (second sb-ext:*posix-argv*))
        (directory (if given
                       (uiop:ensure-directory-pathname (merge-pathnames given (uiop:getcwd)))
-                      (asdf:system-relative-pathname "supergrip" "docs/")))
+                      (merge-pathnames "docs/" supergrip::*home*)))
        (pencil (supergrip:plan *pencil*)))
   (flet ((file (name) (merge-pathnames name directory)))
     (dolist (file (list (supergrip-draw:draw-grasps (file "grasps.svg"))

@@ -174,8 +174,9 @@ OTHER-P is true, and false of the next one of as many digits towards FROM.  SAME
 
 (defun advise (&optional (plan *plan*))
   "Return the ADVICE on PLAN: why its best grasp is the best, and what would change the choice."
-  (let* ((plan (need-plan plan))
-         (best (plan-best plan))
+  (when (unfinished-p (need-plan plan))
+    (refuse-argument "the run is not over, so nothing is the best yet"))
+  (let* ((best (plan-best plan))
          (runner-up (second (plan-possible plan))))
     (make-advice :plan plan
                  :sentence (if best

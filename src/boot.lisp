@@ -1,13 +1,20 @@
-;;;; boot.lisp -- makes a script ready: (load "../src/boot.lisp") loads SUPER-GRIP quietly.
+;;;; boot.lisp -- makes a script or a session ready: (load "../src/boot.lisp") loads SUPER-GRIP.
 ;;;;
-;;;; Compiled files are kept where ASDF keeps them.  Where that can't be written, or there is no
-;;;; home directory, the sources are loaded instead, which takes a few seconds.
+;;;; Compiled files are kept where ASDF keeps them, and compiled again if they are damaged.  Where
+;;;; that can't be written, or there is no home directory, the sources are loaded instead, which
+;;;; takes a few seconds.
+;;;;
+;;;; The session stays as it was: ASDF keeps its configuration, and an error offers its restarts.
+;;;; Only where the debugger is off, as in a script, does an error end the process, with a message
+;;;; and a status: 65 rules or grasps are not valid, 69 a library is missing, 70 anything else.
+
+#-sbcl (error "SUPER-GRIP needs SBCL; this is ~a." (lisp-implementation-type))
 
 (require :asdf)
 
 (defpackage :supergrip-boot
   (:use :cl)
-  (:export #:load-quietly))
+  (:export #:load-quietly #:missing-library))
 
 (in-package :supergrip-boot)
 
@@ -18,38 +25,106 @@
 ;;; At the REPL, where this file was loaded, an example loads it again.
 (unless (fboundp 'load-quietly)
 
-  (defun operate-quietly (operation system)
-    "Do OPERATION on SYSTEM without a word."
-    (let* ((*compile-verbose* nil) (*compile-print* nil) (*load-verbose* nil)
-           (output (make-broadcast-stream))
-           (*standard-output* output) (*error-output* output) (*trace-output* output))
-      (handler-bind ((warning #'muffle-warning))
-        (asdf:operate operation system))))
+  (define-condition missing-library (error)
+    ((name :initarg :name))
+    (:report (lambda (condition stream)
+               (with-slots (name) condition
+                 (format stream "~a is missing: apt-get install ~a, or put it where ASDF looks"
+                         name name))))
+    (:documentation "A library that SUPER-GRIP needs is not where ASDF looks."))
+
+  (defun finder ()
+    "Return a function that finds system definitions: ours here, others as ASDF was told to."
+    (let ((others asdf:*system-definition-search-functions*))
+      (lambda (name)
+        (cond ((equal (asdf:primary-system-name name) "supergrip")
+               (merge-pathnames "supergrip.asd" *root*))
+              ;; ASDF looks for a newer ASDF before it does anything, and loads it.
+              ((member name '("asdf" "uiop") :test #'equal) nil)
+              (t (some (lambda (other) (funcall other name)) others))))))
+
+  (defun call-quietly (function &rest arguments)
+    "Call FUNCTION, which uses ASDF, without a word, whatever the session reads and prints like."
+    (let ((search (list (finder))))
+      (with-standard-io-syntax
+        (let ((asdf:*system-definition-search-functions* search)
+              (*print-readably* nil) (*compile-verbose* nil) (*compile-print* nil)
+              (*load-verbose* nil) (*load-print* nil))
+          (handler-bind (((or warning sb-ext:compiler-note) #'muffle-warning))
+            (apply function arguments))))))
 
   (defun knowledge-error-p (condition)
-    (let ((package (find-package :supergrip-data)))
-      (and package (typep condition (find-symbol "KNOWLEDGE-ERROR" package)))))
+    (let ((class (and (find-package :supergrip-data)
+                      (find-class (find-symbol "KNOWLEDGE-ERROR" :supergrip-data) nil))))
+      (and class (typep condition class))))
 
-  (defun tell (condition)
-    "Print CONDITION; a script ends here, at the REPL there are the restarts."
-    (format sb-sys:*stderr* "~a~%" condition)
-    (finish-output sb-sys:*stderr*)
-    (when sb-ext:*invoke-debugger-hook*
-      (sb-ext:exit :code 65 :abort t)))
+  (defvar *messages* *error-output* "Where messages go.")
 
-  (defun load-quietly (system &rest directories)
-    "Load SYSTEM, which is in SUPER-GRIP's directory; what it needs is in DIRECTORIES."
-    ;; Naming all directories keeps ASDF from searching, and from upgrading itself.
-    (asdf:initialize-source-registry
-     `(:source-registry ,@(loop for directory in (cons *root* directories)
-                                collect `(:directory ,directory))
-                        :ignore-inherited-configuration))
-    (handler-bind ((error (lambda (condition)
-                            (if (knowledge-error-p condition)
-                                (tell condition)
-                                (return-from load-quietly
-                                  (operate-quietly 'asdf:load-source-op system))))))
-      (operate-quietly 'asdf:load-op system))))
+  (defun tell (control &rest arguments)
+    "Write a line to *MESSAGES*."
+    (format *messages* "~?~%" control arguments)
+    (finish-output *messages*))
+
+  (defun end-script (condition hook)
+    "Print CONDITION, which nothing has handled, and end the process."
+    (declare (ignore hook))
+    (unless (typep condition 'sb-sys:interactive-interrupt)
+      (tell "~a" condition))
+    (sb-ext:exit :abort t
+                 :code (cond ((knowledge-error-p condition) 65)
+                             ((typep condition 'missing-library) 69)
+                             ((typep condition 'sb-sys:interactive-interrupt) 130)
+                             (t 70))))
+
+  (defun recompile (restart condition)
+    "Compile again, by RESTART, the compiled file that can't be loaded because of CONDITION."
+    (tell "a compiled file of SUPER-GRIP is damaged: ~a~%It is compiled again." condition)
+    (invoke-restart restart))
+
+  (defun load-compiled (system)
+    "Load SYSTEM, compiling what needs it, also a compiled file that can't be loaded.  Return true if
+that can be done."
+    (let ((tried '())
+          (*error-output* *error-output*))
+      (handler-bind
+          (((or error storage-condition)
+             (lambda (condition)
+               (let* ((restart (find-restart 'asdf/lisp-action:try-recompiling condition))
+                      (name (and restart (princ-to-string restart))))
+                 (cond ((knowledge-error-p condition))
+                       ;; Files of three directories may have one name.
+                       ((and restart (< (count name tried :test #'equal) 3))
+                        (push name tried)
+                        (recompile restart condition))
+                       (t
+                        (when tried (tell "That can't be done; the sources are loaded."))
+                        ;; SBCL tells of a compilation that is left.
+                        (setf *error-output* (make-broadcast-stream))
+                        (return-from load-compiled nil)))))))
+        (call-quietly #'asdf:operate 'asdf:load-op system)
+        t)))
+
+  (defun load-system (system)
+    "Load SYSTEM: its compiled files or, if they can't be written, its sources."
+    (or (load-compiled system)
+        (call-quietly #'asdf:operate 'asdf:load-source-op system)))
+
+  (defun find-library (name)
+    "Make sure that ASDF finds the system NAME."
+    (loop until (call-quietly #'asdf:find-system name nil)
+          do (restart-case (error 'missing-library :name name)
+               (retry ()
+                 :report "Look for it again, now that ASDF can find it."))))
+
+  (defun load-quietly (system &key needs)
+    "Load SYSTEM, one of SUPER-GRIP, which needs the libraries NEEDS."
+    (let* ((script (eq sb-ext:*invoke-debugger-hook* 'sb-debug::debugger-disabled-hook))
+           (sb-ext:*invoke-debugger-hook* (if script 'end-script sb-ext:*invoke-debugger-hook*))
+           (*messages* *error-output*)
+           ;; A script says what is wrong once; SBCL would say in which form of this file, too.
+           (*error-output* (if script (make-broadcast-stream) *error-output*)))
+      (mapc #'find-library needs)
+      (load-system system))))
 
 (load-quietly "supergrip")
 

@@ -1,9 +1,9 @@
 ;;;; build.lisp -- sbcl --script src/build.lisp [FILE] makes the executable supergrip, or FILE.
 
+(load (merge-pathnames "boot.lisp" *load-truename*))
+
 ;;; The pictures, which --report needs, come along if cl-who is there.
-(load (merge-pathnames (if (probe-file "/usr/share/common-lisp/source/cl-who/")
-                           "draw/boot.lisp"
-                           "boot.lisp")
-                       *load-truename*))
+(handler-case (load (merge-pathnames "draw/boot.lisp" *load-truename*))
+  (supergrip-boot:missing-library () nil))
 
 (supergrip::build)

@@ -102,15 +102,46 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
   (declare (ignore name parts))
   `(edit ',(cons 'rule (rest form))))
 
-(defmacro supergrip-user::setq (&rest pairs)
-  "SETQ, but (SETQ name '(USED-SURFACES ...)) and (SETQ GRIPPER '(...)) edit the knowledge in force."
-  (destructuring-bind (&optional name value) (if (= (length pairs) 2) pairs '())
-    (if (and (part-p value "QUOTE")
-             (consp (second value))
-             (or (name= name "GRIPPER")
-                 (some (lambda (key) (name= key "USED-SURFACES")) (second value))))
-        `(edit '(setq ,name ,value))
-        `(cl:setq ,@pairs))))
+;;; SETQ at top level
+
+(defun proper-list-p (object)
+  "True if OBJECT is a list that ends."
+  (and (listp object)
+       (handler-case (list-length object)
+         (type-error () nil))))         ; a dotted one
+
+(defun quoted-list (form)
+  "Return the list that FORM quotes, or NIL."
+  (and (proper-list-p form) (eq (first form) 'quote) (= (length form) 2)
+       (proper-list-p (second form))
+       (second form)))
+
+(defun definition-p (name list)
+  "True if (SETQ NAME 'LIST) is a grasp or the gripper."
+  (and list
+       (or (name= name "GRIPPER")
+           (loop for (key) on list by #'cddr thereis (name= key "USED-SURFACES")))))
+
+(defun unquoted-p (name form)
+  "True if FORM is a box, a grasp or a gripper whose quote was forgotten."
+  (and (consp form)
+       (or (and (name= name "BOX") (consp (first form)) (not (eq (caar form) 'lambda)))
+           (and (name= name "GRIPPER") (assoc (first form) (knowledge-gripper *knowledge*)
+                                              :test #'name=))
+           (name= (first form) "USED-SURFACES"))))
+
+(defmacro supergrip-user::setq (&rest pairs &environment environment)
+  "SETQ, but at top level (SETQ name '(USED-SURFACES ...)) and (SETQ GRIPPER '(...)) edit the
+knowledge in force.  Where a variable is meant, as inside a function, it is SETQ alone."
+  (destructuring-bind (&optional name value)
+      (if (and (proper-list-p pairs) (= (length pairs) 2)) pairs '())
+    (cond ((not (and (namep name) (global-name-p name environment)))
+           `(cl:setq ,@pairs))
+          ((definition-p name (quoted-list value))
+           `(edit '(setq ,name ,value)))
+          ((unquoted-p name value)
+           `(refuse-argument "the quote is missing: it is (setq ~(~a~) '(...))" ',name))
+          (t `(cl:setq ,@pairs)))))
 
 ;;; What a change changes
 
@@ -139,8 +170,11 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
             object)))
 
 (defun compare-knowledge (old new boxes &key (gamma *gamma*) (stream *standard-output*))
-  "Plan each of BOXES with the knowledge OLD and with NEW; write what differs to STREAM (NIL: do not)
-and return a list of DIFFERENCEs, in the order of BOXES."
+  "Plan each of BOXES, or the one box, with the knowledge OLD and with NEW; write what differs to
+STREAM (NIL: do not) and return a list of DIFFERENCEs, in the order of BOXES."
+  (mapc #'check-knowledge-argument (list old new))
+  (unless (or (box-p boxes) (proper-list-p boxes))
+    (refuse-argument "~a is no list of boxes" (form-text boxes)))
   (let* ((boxes (if (one-box-p boxes) (list boxes) boxes))
          (differences
           (loop for box in boxes

@@ -185,6 +185,7 @@ NIL if it can."
          (said (and stop (eq (stop-verdict stop) :cant)))
          (miss (and (not said) (not (plan-best plan)) (nearest-of (plan-candidates plan) plan))))
     (cond ((plan-best plan) nil)
+          ((unfinished-p plan) "THE RUN IS NOT OVER")
           (said (plain-text "CANT ~{~a~^ ~}" (stop-words stop)))
           (miss (plain-text "NO GRASP IS POSSIBLE, NEAREST MISS: ~a (~{~a~^ ~}): ~a"
                             (candidate-grasp miss) (candidate-matching miss)

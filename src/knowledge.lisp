@@ -107,10 +107,13 @@ What is wrong is left out."
   (setf *kept-files* (loop for name in '("rules.lisp" "grasps.lisp")
                            collect (read-data-file (shipped-file name)))))
 
+(defparameter *home* (asdf:system-source-directory "supergrip")
+  "The directory of SUPER-GRIP, as it was loaded: later ASDF might find another.")
+
 (defun shipped-file (name)
   "Return the path of the file NAME of SUPER-GRIP itself, or the data file that was kept of it."
   (or (find name *kept-files* :key #'data-file-name :test #'string=)
-      (asdf:system-relative-pathname "supergrip" name)))
+      (merge-pathnames name *home*)))
 
 (defun read-data-file (file)
   "Return the data file of FILE, a path, or FILE itself if it is one; what prevents its being read

@@ -259,7 +259,9 @@ or NIL: where the pictures are loaded, they set it.")
   (cond (*report-index*)
         (*kept-files*
          (error 'no-pictures :reason "it was built without cl-who; install that, and build it again"))
-        (t (load (asdf:system-relative-pathname "supergrip" "src/draw/boot.lisp"))
+        (t (handler-case (let ((*error-output* (make-broadcast-stream))) ; SBCL's word on the file
+                           (load (merge-pathnames "src/draw/boot.lisp" *home*)))
+             (error (condition) (error 'no-pictures :reason condition)))
            *report-index*)))
 
 (defun write-report (batch directory)
@@ -377,7 +379,7 @@ prints, and the boxes, rules and grasps it was given."
 directory of SUPER-GRIP, and end."
   (let* ((arguments (command-arguments))
          (given (and (listp arguments) (first arguments)))
-         (file (or given (native-name (asdf:system-relative-pathname "supergrip" "supergrip")))))
+         (file (or given (native-name (merge-pathnames "supergrip" *home*)))))
     (handler-case (prepare-file file)
       (system-failure (condition)
         (tell "supergrip: ~a: ~a" file condition)

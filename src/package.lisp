@@ -1,7 +1,17 @@
 ;;;; package.lisp -- what SUPER-GRIP exports, by topic.
+;;;;
+;;;; The packages are locked: a DEFUN of the user's can't replace a function of ours.  A lock also
+;;;; forbids LET to bind a symbol macro; so BOX lives in a package that is not locked.
+
+(defpackage :supergrip-words
+  (:use)
+  (:export #:box)
+  (:documentation "The words of SUPER-GRIP that are typed like variables."))
 
 (defpackage :supergrip
-  (:use :cl :supergrip-data :supergrip-chainer)
+  (:use :cl :supergrip-data :supergrip-chainer :supergrip-words)
+  (:implement :supergrip :supergrip-data :supergrip-chainer)
+  (:lock t)
   (:documentation "An expert system that chooses the best grasp of a three-fingered gripper on a
 rectangular box: rules decide which grasps are worth trying, statics how good each one is.")
   (:export
@@ -52,7 +62,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:supergrip-error #:input-error #:input-error-problems #:syntax-error #:box-error
    #:knowledge-error #:knowledge-warning #:knowledge-warning-problems #:retry
    #:no-box-error #:no-plan-error #:no-grasp-error #:no-rule-error #:no-fact-error
-   #:gamma-error
+   #:gamma-error #:argument-error
    #:problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text))
 

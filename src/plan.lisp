@@ -17,6 +17,22 @@
                    (write-string "there is no plan yet: call (forward-chain) first" stream)))))
   (:documentation "A question about a plan was asked before there was one, or of something else."))
 
+(define-condition argument-error (supergrip-error)
+  ((text :initarg :text))
+  (:report (lambda (condition stream) (write-string (slot-value condition 'text) stream)))
+  (:documentation "A function was given something that it can't use."))
+
+(defun refuse-argument (control &rest arguments)
+  "Signal an ARGUMENT-ERROR that says what CONTROL and ARGUMENTS say."
+  (error 'argument-error :text (apply #'format nil control arguments)))
+
+(defun check-knowledge-argument (object)
+  "Return OBJECT if it is knowledge."
+  (if (knowledge-p object)
+      object
+      (refuse-argument "~a is no knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force"
+                       (form-text object))))
+
 (defun name-of (designator)
   "Return the name that DESIGNATOR, a symbol of any package, a string in any case, a rule or a grasp,
 stands for; NIL if it is none of these."
@@ -51,7 +67,7 @@ more."
       (if (plan-best plan)
           (format stream "~a (~{~a~^ ~}) Q=~,3f" (plan-grasp plan) (plan-matching plan)
                   (plan-quality plan))
-          (format stream "can't: ~a" (plan-reason plan))))))
+          (format stream "~:[can't: ~;~]~a" (unfinished-p plan) (plan-reason plan))))))
 
 (defun plan (box &key (knowledge *knowledge*) (gamma *gamma*))
   "Return the plan for BOX, a box or a description of one (see PARSE-BOX).
@@ -125,6 +141,22 @@ Rules that end without KEEP or CANT keep the best."
                                   (attempt-best attempt))
                        :log (nreverse (memory-log memory)) :facts (save-facts memory))
       (give-back memory knowledge))))
+
+(defun waiting-p (stop)
+  "True if STOP ends no run: it says where a run that the debugger has stopped stands."
+  (member (stop-verdict stop) '(:before :within)))
+
+(defun unfinished-p (plan)
+  "True if PLAN is of a run that the debugger has stopped."
+  (and (plan-stop plan) (waiting-p (plan-stop plan))))
+
+(defun reached-p (rule plan)
+  "True if the run of PLAN, if it is unfinished, has come to RULE."
+  (or (not (unfinished-p plan))
+      (let ((last (rule-index (stop-rule (plan-stop plan)))))
+        (if (eq (stop-verdict (plan-stop plan)) :before)
+            (< (rule-index rule) last)
+            (<= (rule-index rule) last)))))
 
 (defun plan-memory (plan)
   "Return a memory that holds all that is known at the end of PLAN."

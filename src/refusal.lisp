@@ -10,18 +10,18 @@ that met all clauses before, BLOCKS, for a negation, the derivations of the fact
 under each, and ELSEWHERE is true if it fired for something else."
   rule alone (fired '()) stop number clause (bindings '()) (blocks '()) elsewhere)
 
-(defun memory-before (plan index)
-  "Return the memory of PLAN as it was when the rule with INDEX was tried, and the STOP that ended
-the run before it, or NIL."
+(defun memory-before (plan rule)
+  "Return the memory of PLAN as it was when RULE was tried, and, if it was not, the STOP before it."
   (let* ((knowledge (plan-knowledge plan))
          (memory (prepare-memory (new-memory knowledge) (plan-box plan) knowledge
                                  (plan-gamma plan))))
     (values memory
-            (run-observed (plan-rulebase plan) memory (constantly nil) :end index))))
+            (or (run-observed (plan-rulebase plan) memory (constantly nil) :end (rule-index rule))
+                (and (not (reached-p rule plan)) (plan-stop plan))))))
 
 (defun refuse-rule (rule plan)
   "Return the REFUSAL of RULE in PLAN."
-  (multiple-value-bind (memory stop) (memory-before plan (rule-index rule))
+  (multiple-value-bind (memory stop) (memory-before plan rule)
     (cond ((plan-alone plan) (make-refusal :rule rule :alone (plan-alone plan)))
           (stop (make-refusal :rule rule :stop stop))
           ((failing-clause rule memory plan (constantly t)))
@@ -29,7 +29,7 @@ the run before it, or NIL."
 
 (defun refuse-conclusion (rule predicate packed plan)
   "Return the REFUSAL of RULE in PLAN as far as it might have said PREDICATE of the faces of PACKED."
-  (multiple-value-bind (memory stop) (memory-before plan (rule-index rule))
+  (multiple-value-bind (memory stop) (memory-before plan rule)
     (let ((actions (remove predicate (rule-actions rule) :key #'action-predicate :test-not #'eq)))
       (flet ((wanted-p (binding)
                (some (lambda (action)
@@ -43,7 +43,7 @@ the run before it, or NIL."
                      (setf (refusal-elsewhere refusal) (and bindings t))
                      refusal)
                     (t (make-refusal :rule rule :fired bindings
-                                     :stop (and (plan-stop plan)
+                                     :stop (and (plan-stop plan) (not (unfinished-p plan))
                                                 (eq rule (stop-rule (plan-stop plan)))
                                                 (plan-stop plan)))))))))))
 
@@ -91,6 +91,10 @@ first clause that fails for all of them.  NIL if none does."
            (format stream "RULE ~a did not run: ~a was tried alone.~%" (rule-name rule)
                    (refusal-alone answer)))
           ((refusal-fired answer) (write-fired answer stream))
+          ((and (refusal-stop answer) (waiting-p (refusal-stop answer)))
+           (format stream "RULE ~a has not run yet: the run stands ~:[in~;before~] RULE ~a.~%"
+                   (rule-name rule) (eq (stop-verdict (refusal-stop answer)) :before)
+                   (rule-name (stop-rule (refusal-stop answer)))))
           ((refusal-stop answer)
            (format stream "RULE ~a was not reached: RULE ~a ended the run, ~a.~%" (rule-name rule)
                    (rule-name (stop-rule (refusal-stop answer)))

@@ -23,26 +23,34 @@
 
 (define-symbol-macro box (current-box))
 
-(defun forward-chain (&key ((:box given) *box*) (knowledge *knowledge*) (gamma *gamma*)
-                        (stream *standard-output*) (trace *trace-level*) step)
+(defun forward-chain (&rest arguments)
   "Choose the best grasp for the box, print what the rules say, what is possible and what is best,
 and return the plan, which *PLAN* also holds.
 
-BOX is a box or a description of one, by default what (setq box ...) gave; GAMMA weighs velocities
-(1) against forces (0); STREAM is where to print, NIL for not at all; TRACE says how much to print
-(see *TRACE-LEVEL*); STEP, if true, stops in the debugger before each rule."
+ARGUMENTS are keys and values: :BOX a box or a description of one, by default what (setq box ...)
+gave, which may also stand first, without its key; :KNOWLEDGE, by default what is in force; :GAMMA
+weighs velocities (1) against forces (0); :STREAM is where to print, NIL for not at all; :TRACE says
+how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger before each rule."
+  (apply #'chain-box (if (oddp (length arguments)) (cons :box arguments) arguments)))
+
+(defun chain-box (&key ((:box given) *box*) (knowledge *knowledge*) (gamma *gamma*)
+                    (stream *standard-output*) ((:trace level) *trace-level*) step)
+  "Do what FORWARD-CHAIN does."
   (unless given
     (error 'no-box-error))
-  (setf *plan*
-        (if (or step *traced* *breaks* (> trace 1))
-            (traced-plan given knowledge gamma trace step
-                         (if (and stream (or (plusp trace) *traced*))
-                             stream
-                             (make-broadcast-stream)))
-            (plan given :knowledge knowledge :gamma gamma)))
-  (when (and stream (= trace 1) (not (or step *traced* *breaks*)))
-    (write-transcript *plan* stream))
-  *plan*)
+  (let ((level (check-trace-level level))
+        (knowledge (check-knowledge-argument knowledge))
+        (stream (if (eq stream t) *standard-output* stream)))
+    (if (or step *traced* *breaks* (> level 1))
+        (setf *plan* (traced-plan given knowledge gamma level step
+                                  (if (and stream (or (plusp level) *traced*))
+                                      stream
+                                      (make-broadcast-stream))))
+        (progn
+          (setf *plan* (plan given :knowledge knowledge :gamma gamma))
+          (when (and stream (= level 1))
+            (write-transcript *plan* stream))))
+    *plan*))
 
 (defun possible-grasps (&optional (plan *plan*))
   "Return the paper's list POSSIBLE-GRASPS of PLAN, the best first: for each possible grasp its

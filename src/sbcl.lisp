@@ -248,6 +248,13 @@ Return the end, which is START at the end of the file or if a signal asks the pr
                      ((eql errno sb-unix:eagain) (wait-for descriptor :output))
                      (t (error 'write-failure :what "can't be written" :errno errno)))))))
 
+;;; The compiler
+
+(defun global-name-p (name environment)
+  "True if ENVIRONMENT, a macro's, is that of top level, and NAME is no variable, BOX apart."
+  (and (or (null environment) (sb-c::null-lexenv-p environment))
+       (or (eq name 'box) (eq (sb-int:info :variable :kind name) :unknown))))
+
 ;;; Numbers
 
 (defun shortest-digits (number)

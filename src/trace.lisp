@@ -9,6 +9,13 @@ many bindings, 3 also every action and the candidates that fail, 4 also what mee
 (defvar *traced* '() "The names of the rules and grasps that are traced, strings.")
 (defvar *breaks* '() "The names of rules and the canonical facts on which a run stops.")
 
+(defun check-trace-level (level)
+  "Return the level of trace LEVEL, 0 for NIL."
+  (cond ((null level) 0)
+        ((typep level '(integer 0)) level)
+        (t (refuse-argument "~a is no level of trace: it is 0, nothing, to 4, everything"
+                            (form-text level)))))
+
 (defun check-name (name)
   "Return NAME as a string if it names a rule or a grasp, or signal a NO-RULE-ERROR."
   (let ((word (name-of name)))
@@ -59,9 +66,10 @@ rule, CONTINUE to the next break."))
 
 (defvar *stepping* nil "True while a run stops before every rule.")
 
-(defun pause (control &rest arguments)
-  "Stop in the debugger, saying what CONTROL and ARGUMENTS say."
-  (let ((condition (make-condition 'chain-break :text (apply #'plain-text control arguments))))
+(defun pause (plan control &rest arguments)
+  "Stop in the debugger, saying what CONTROL and ARGUMENTS say; questions asked there are about PLAN."
+  (let ((condition (make-condition 'chain-break :text (apply #'plain-text control arguments)))
+        (*plan* plan))
     (restart-case (progn (signal condition) (invoke-debugger condition))
       (next-rule ()
         :report "Go on to the next rule."
@@ -111,15 +119,17 @@ rule, CONTINUE to the next break."))
     (format stream "  (~a FAILS AT ~a, MATCHING: (~{~a~^ ~})): ~a~%" (candidate-grasp candidate)
             (symbol-name step) (candidate-matching candidate) text)))
 
-(defun write-additions (events plan level traced stream)
-  "Write EVENTS, what an action added to the log, of a rule that is TRACED or not."
+(defun write-additions (events plan in-hand level traced stream)
+  "Write EVENTS, what an action of PLAN added to the log, of a rule that is TRACED or not.  IN-HAND
+returns the plan as it is now."
   (dolist (event events)
     (cond ((not (candidate-p event))
            (when (or traced (plusp level))
              (write-event event (plan-rulebase plan) stream))
            (when (fact-broken-p event (plan-rulebase plan))
-             (pause "~a is known" (multiple-value-call #'fact-text
-                                    (event-fact event (plan-rulebase plan))))))
+             (pause (funcall in-hand)
+                    "~a is known" (multiple-value-call #'fact-text
+                                     (event-fact event (plan-rulebase plan))))))
           ((candidate-quality event)
            (when (or traced (plusp level) (traced-p (candidate-grasp event)))
              (write-candidate event stream)))
@@ -134,7 +144,8 @@ for."
       (ecase what
         (:rule (let ((rule (first arguments)))
                  (when (or *stepping* (member (rule-name rule) *breaks* :test #'string=))
-                   (pause "before ~a" (form-text (rule-form rule))))
+                   (pause (plan-in-hand plan memory rule nil)
+                          "before ~a" (form-text (rule-form rule))))
                  (when (full-p rule 4)
                    (format stream "  RULE ~a~%" (rule-name rule))
                    (write-clause-matches rule memory stream))))
@@ -149,20 +160,28 @@ for."
                              (let ((text (binding-text rule binding)))
                                (and (plusp (length text)) text))
                              (and (null added) (grasp-p (action-target action)))))
-                   (write-additions added plan level (traced-p (rule-name rule)) stream)))
+                   (write-additions added plan (lambda () (plan-in-hand plan memory rule t))
+                                    level (traced-p (rule-name rule)) stream)))
         (:stop nil)))))
 
-(defun observed-plan (box knowledge gamma make-observer)
+(defun observed-plan (box knowledge gamma make-observer &rest arguments)
   "Return the plan for BOX; its run is watched by what MAKE-OBSERVER returns for the unfinished plan
-and the memory that the rules run on."
+and the memory that the rules run on.  RUN-OBSERVED gets ARGUMENTS, too."
   (with-plain-floats
     (let* ((memory (start-plan box knowledge gamma))
            (attempt (memory-client memory))
            (unfinished (%make-plan :box (attempt-box attempt) :knowledge knowledge
                                    :gamma (attempt-gamma attempt))))
       (finish-plan memory knowledge
-                   (run-observed (knowledge-rulebase knowledge) memory
-                                 (funcall make-observer unfinished memory))))))
+                   (apply #'run-observed (knowledge-rulebase knowledge) memory
+                          (funcall make-observer unfinished memory) arguments)))))
+
+(defun plan-in-hand (plan memory rule begun)
+  "Return PLAN, unfinished, as it is now on MEMORY: before RULE or, if that has BEGUN, within it."
+  (%make-plan :box (plan-box plan) :knowledge (plan-knowledge plan) :gamma (plan-gamma plan)
+              :stop (make-stop :verdict (if begun :within :before) :rule rule)
+              :best (attempt-best (memory-client memory))
+              :log (reverse (memory-log memory)) :facts (save-facts memory)))
 
 (defun traced-plan (box knowledge gamma level step stream)
   "Return the plan for BOX, writing to STREAM what LEVEL and the traced names ask for as it comes."
@@ -188,21 +207,25 @@ first two, and so on; FIRINGS its bindings; FACTS what it added."
     counts))
 
 (defun count-rules (plan)
-  "Return what RULE-COUNTS does, from running the rules again."
-  (let ((counts '()))
-    (observed-plan (plan-box plan) (plan-knowledge plan) (plan-gamma plan)
-                   (lambda (unfinished memory)
-                     (declare (ignore unfinished))
-                     (lambda (what &rest arguments)
-                       (ecase what
-                         (:rule (push (list (rule-name (first arguments))
-                                            (count-matches (first arguments) memory)
-                                            0 0)
-                                      counts))
-                         (:bindings (setf (third (first counts)) (length (second arguments))))
-                         (:action (incf (fourth (first counts))
-                                        (count-if #'integerp (fourth arguments))))
-                         (:stop nil)))))
+  "Return what RULE-COUNTS does, from running the rules again as far as PLAN has come."
+  (let ((counts '()) (rulebase (plan-rulebase plan)))
+    (flet ((facts (rule)
+             (count-if (lambda (event)
+                         (and (integerp event) (eq rule (event-rule event rulebase))))
+                       (plan-log plan))))
+      (observed-plan (plan-box plan) (plan-knowledge plan) (plan-gamma plan)
+                     (lambda (unfinished memory)
+                       (declare (ignore unfinished))
+                       (lambda (what &rest arguments)
+                         (case what
+                           (:rule (push (list (rule-name (first arguments))
+                                              (count-matches (first arguments) memory)
+                                              0 (facts (first arguments)))
+                                        counts))
+                           (:bindings (setf (third (first counts))
+                                            (length (second arguments)))))))
+                     :end (count-if (lambda (rule) (reached-p rule plan))
+                                    (rulebase-rules rulebase))))
     (nreverse counts)))
 
 (defun count-matches (rule memory)

@@ -69,16 +69,55 @@
 (test a-grasp-is-edited-by-setq
   (with-knowledge-restored
     (let ((before supergrip:*knowledge*))
-      (supergrip-user::setq pinch-2-parallel
+      (eval-in-user "(setq pinch-2-parallel
                             '(used-surfaces (n1 n2 a2)
                               conditions ((dist '(n1 n2)) < 1)
                               offset (list 0 0 0 0 0 0)
-                              wrench (1 1 1 1 1 1) twist (1 1 1 1 1 1)))
+                              wrench (1 1 1 1 1 1) twist (1 1 1 1 1 1)))")
       (is (null (supergrip:possible-grasps (supergrip:try-grasp "PINCH-2-PARALLEL" (paper-box)))))
       (is (= (length (supergrip:knowledge-grasps before)) (grasp-total)))))
   (let ((x 1))
     (supergrip-user::setq x 2)
     (is (= 2 x) "anything else is set as ever")))
+
+(test setq-is-setq-where-a-variable-is-meant
+  (let ((knowledge supergrip:*knowledge*))
+    (loop for (value text) in
+          '(((a . b) "(setq x '(a . b))")
+            ((used-surfaces . b) "(setq x '(used-surfaces . b))")
+            ((a b) "(setq x '(a b))")
+            ((a used-surfaces) "(setq x '(a used-surfaces))")
+            (nil "(setq)")
+            (2 "(setq x 1 y 2)")
+            ((a b) "(let ((gripper 1)) (setq gripper '(a b)) gripper)")
+            ((a b) "(funcall (lambda (gripper) (setq gripper '(a b)) gripper) 1)")
+            ((used-surfaces 1) "(let (x) (setq x '(used-surfaces 1)) x)")
+            ((used-surfaces 1) "(symbol-macrolet ((x y)) (setq x '(used-surfaces 1)) y)")
+            ((a b) "(progn (defvar *gripper*) (setq *gripper* '(a b)) *gripper*)")
+            ((a . b) "(let ((box 1)) (setq box '(a . b)) box)")
+            (t "(eq 'cl:setq (first (macroexpand-1 '(setq x 1))))"))
+          do (is (equal (prin1-to-string value)
+                        (let ((value (eval-in-user text))
+                              (*package* (find-package :supergrip-user)))
+                          (prin1-to-string value)))
+                     "~a" text))
+    (is (eq t (eval-in-user "(progn (setq x '#1=(a . #1#)) (eq x (cdr x)))")))
+    (is (eq knowledge supergrip:*knowledge*))))
+
+(test a-quote-that-was-forgotten-is-missed
+  (loop for (text form) in
+        '(("(setq box '(...))" "(setq box ((SIZE 12 2 2) (WEIGHT 0.2)))")
+          ("(setq lateral '(...))" "(setq lateral (USED-SURFACES (N1 N2)))")
+          ("(setq gripper '(...))" "(setq gripper (FINGER-LENGTH 3))"))
+        do (is (equal (format nil "the quote is missing: it is ~a" text)
+                      (error-text (eval-in-user form))))))
+
+(defun eval-in-user (text)
+  "Return the value of the form TEXT in SUPERGRIP-USER; warnings of undefined variables are not
+printed."
+  (let ((*package* (find-package :supergrip-user)) (*error-output* (make-broadcast-stream)))
+    (handler-bind ((warning #'muffle-warning))
+      (eval (read-from-string text)))))
 
 (test knowledge-is-read-again
   (with-knowledge-restored
@@ -104,3 +143,14 @@
       (is (equal '("12 x 2 x 2 cm: PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1) Q=0.770, was PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1) Q=0.860"
                    "1 of 2 boxes differ: 0 in verdict, 1 in grasp, 0 in quality.")
                  (printed (supergrip:compare-knowledge old supergrip:*knowledge* boxes)))))))
+
+(test comparing-takes-knowledge-and-boxes
+  (let ((knowledge supergrip:*knowledge*))
+    (is (equal "3 is no knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force"
+               (error-text (supergrip:compare-knowledge knowledge 3 (list (paper-box))))))
+    (is (equal "(A . B) is no list of boxes"
+               (error-text (supergrip:compare-knowledge knowledge knowledge '(a . b)))))
+    (is (search "is no list of boxes"
+                (error-text (let ((boxes (list (paper-box))))
+                              (setf (cdr boxes) boxes)
+                              (supergrip:compare-knowledge knowledge knowledge boxes)))))))

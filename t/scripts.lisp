@@ -47,23 +47,30 @@ Returns its status, standard output and standard error."
         (is (equal "" errors) "~a: ~a" example errors)
         (is (equal "--END--" (first (last (lines-of output)))) "~a" example)))))
 
-(defun copy-project (directory)
-  "Copy what a script needs into DIRECTORY, with a mistake in the rules."
-  (dolist (name '("supergrip.asd" "rules.lisp" "grasps.lisp" "examples/pencil.lisp"))
-    (ensure-directories-exist (merge-pathnames name directory))
-    (uiop:copy-file (project-file name) (merge-pathnames name directory)))
-  (uiop:run-program (list "cp" "-r" (uiop:native-namestring (project-file "src"))
-                          (uiop:native-namestring directory)))
-  (with-open-file (out (merge-pathnames "rules.lisp" directory) :direction :output
-                                                                :if-exists :supersede)
-    (write-string (replace-once (file-text "rules.lisp") "(KEEP BEST)))
+;;; A copy of the project, with a cache of its own
+
+(defun spoiled-rules ()
+  (replace-once (file-text "rules.lisp") "(KEEP BEST)))
 
 ;;;; ----" "(KEEP IT)))
 
-;;;; ----")
-                  out)))
+;;;; ----"))
 
-(test a-script-with-spoiled-rules-says-so-and-ends
+(defun write-file (text name)
+  (ensure-directories-exist name)
+  (with-open-file (out name :direction :output :if-exists :supersede)
+    (write-string text out)))
+
+(defun copy-project (directory)
+  "Copy what a script needs into DIRECTORY."
+  (dolist (name '("supergrip.asd" "rules.lisp" "grasps.lisp" "examples/pencil.lisp"))
+    (write-file (file-text name) (merge-pathnames name directory)))
+  (uiop:run-program (list "cp" "-r" (uiop:native-namestring (project-file "src"))
+                          (uiop:native-namestring directory))))
+
+(defun call-with-project (function)
+  "Call FUNCTION with the directory of a copy of the project, and a function that runs a command, a
+list of strings, there, with a cache of its own."
   (let ((directory (uiop:ensure-directory-pathname
                     (format nil "~asupergrip-test-~d/" (uiop:native-namestring
                                                         (uiop:temporary-directory))
@@ -71,14 +78,95 @@ Returns its status, standard output and standard error."
     (unwind-protect
          (progn
            (copy-project directory)
-           (multiple-value-bind (status output errors)
-               (run-process (list "sbcl" "--script"
-                                  (uiop:native-namestring
-                                   (merge-pathnames "examples/pencil.lisp" directory)))
-                            :environment (list (format nil "XDG_CACHE_HOME=~acache"
-                                                       (uiop:native-namestring directory))))
-             (is (eql 65 status))
-             (is (equal "" output))
-             (is (equal '("rules.lisp:94: RULE GRIP6, action 3: KEEP is (KEEP BEST)")
-                        (lines-of errors)))))
+           (funcall function directory
+                    (lambda (&rest command)
+                      (run-process command
+                                   :directory directory
+                                   :environment (list (format nil "XDG_CACHE_HOME=~acache"
+                                                              (uiop:native-namestring
+                                                               directory)))))))
       (uiop:delete-directory-tree directory :validate t :if-does-not-exist :ignore))))
+
+(defparameter *session-of-a-user* "
+(require :asdf)
+(asdf:initialize-source-registry
+ `(:source-registry (:directory ,(merge-pathnames \"mine/\" *default-pathname-defaults*))
+                    :ignore-inherited-configuration))
+(setf sb-ext:*invoke-debugger-hook*
+      (lambda (condition hook)
+        (declare (ignore hook))
+        (format t \"~a~%\" (type-of condition))
+        (invoke-restart (find-restart 'continue condition)))
+      *read-default-float-format* 'double-float
+      *print-case* :downcase)
+(let ((*default-pathname-defaults* (merge-pathnames \"src/\"))
+      (functions asdf:*system-definition-search-functions*))
+  (load \"boot.lisp\")
+  (load \"boot.lisp\")
+  (format t \"~a~%\" (list (package-name *package*) *read-default-float-format*
+                           (eq functions asdf:*system-definition-search-functions*)
+                           (not (null (asdf:find-system \"mine\" nil)))
+                           (not (null (asdf:find-system \"supergrip/draw\" nil))))))
+(format t \"~d~%\" (length (supergrip:knowledge-rules supergrip:*knowledge*)))
+(sb-ext:exit)
+" "A session with a debugger and settings of its own, as one under SLIME.")
+
+(defun damage (name directory length)
+  "Cut the compiled file NAME in the cache of DIRECTORY after LENGTH octets; it looks as old as before."
+  (let ((file (find name (directory (merge-pathnames "cache/**/*.fasl" directory))
+                    :key #'pathname-name :test #'string=)))
+    (uiop:run-program
+     (list "sh" "-c" "touch -r $1 $1.time; truncate -s $0 $1; touch -r $1.time $1"
+           (princ-to-string length) (uiop:native-namestring file)))
+    file))
+
+(test loading-leaves-the-session-and-mends-the-cache
+  (call-with-project
+   (lambda (directory run)
+     (flet ((pencil () (funcall run "sbcl" "--script" "examples/pencil.lisp")))
+       (write-file (spoiled-rules) (merge-pathnames "rules.lisp" directory))
+       (multiple-value-bind (status output errors) (pencil)
+         (is (eql 65 status) "a script says what is wrong with the rules, and ends")
+         (is (equal "" output))
+         (is (equal '("rules.lisp:94: RULE GRIP6, action 3: KEEP is (KEEP BEST)")
+                    (lines-of errors))))
+       (write-file *session-of-a-user* (merge-pathnames "session.lisp" directory))
+       (write-file "(defsystem \"mine\")" (merge-pathnames "mine/mine.asd" directory))
+       (is (equal '("KNOWLEDGE-ERROR" "(COMMON-LISP-USER double-float t t t)" "14")
+                  (lines-of (nth-value 1 (funcall run "sbcl" "--noinform" "--no-userinit"
+                                                  "--load" "session.lisp"))))
+           "a session has restarts, and stays as it was")
+       (write-file (file-text "rules.lisp") (merge-pathnames "rules.lisp" directory))
+       (let ((damaged (list (damage "conditions" directory 0) (damage "main" directory 3000)
+                            (damage "plan" directory 20))))
+         (multiple-value-bind (status output errors) (pencil)
+           (is (eql 0 status))
+           (is (equal (file-text "t/pencil-session.txt") output))
+           (dolist (file damaged)
+             (is (search (uiop:native-namestring file) errors) "~a is told of" file))))
+       (multiple-value-bind (status output errors) (pencil)
+         (is (eql 0 status))
+         (is (equal (file-text "t/pencil-session.txt") output))
+         (is (equal "" errors) "the cache is mended"))))))
+
+(test a-library-that-is-missing-gives-69
+  (let ((environment '("CL_SOURCE_REGISTRY=(:source-registry :ignore-inherited-configuration)")))
+    (dolist (command (list (script "examples/figures.lisp")
+                           (append (script "examples/batch.lisp") '("--report" "/tmp/none/"))))
+      (multiple-value-bind (status output errors)
+          (run-process command :environment environment)
+        (is (eql 69 status))
+        (is (equal "" output))
+        (is (search "cl-who is missing" errors))
+        (is (= 1 (length (lines-of errors))))))))
+
+(test another-lisp-is-told-that-sbcl-is-needed
+  ;; What another Lisp reads of these files first, its features being others.
+  (dolist (name '("supergrip.asd" "src/boot.lisp"))
+    (with-open-file (in (project-file name))
+      (let* ((*features* (remove :sbcl *features*))
+             (*package* (find-package :asdf-user))
+             (form (read in)))
+        (is (search "SUPER-GRIP needs SBCL"
+                    (handler-case (progn (eval form) "")
+                      (error (condition) (princ-to-string condition)))))))))

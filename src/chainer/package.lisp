@@ -2,6 +2,7 @@
 
 (defpackage :supergrip-chainer
   (:use :cl :supergrip-data)
+  (:lock t)
   (:documentation "An s-expression forward chainer: ordered rules, each run once; negation under
 the closed-world assumption; predicates of unordered lists of surfaces; actions attached through
 one generic function.")

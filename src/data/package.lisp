@@ -2,6 +2,7 @@
 
 (defpackage :supergrip-data
   (:use :cl)
+  (:lock t)
   (:documentation "Reads rule, grasp and box files without the Lisp reader, and reports what is wrong
 in them.")
   (:export

@@ -1,0 +1,132 @@
+;;;; repl.lisp -- tests of typing at the REPL: what is taken, and what is left to the user.
+
+(in-package :supergrip-test)
+(in-suite all)
+
+(defpackage :supergrip-test-user
+  (:use :cl :supergrip)
+  (:documentation "A package as a user might have."))
+
+(defun exported-words ()
+  "Return what a user's package gets from SUPER-GRIP, but for special variables."
+  (remove-if (lambda (word) (char= #\* (char (symbol-name word) 0)))
+             (loop for word being the external-symbols of :supergrip collect word)))
+
+(defun binding-forms (word)
+  "Return forms that bind WORD as a variable in all ways."
+  `((let ((,word 1)) (declare (fixnum ,word)) (setq ,word 2) ,word)
+    (let* ((,word 1)) (incf ,word))
+    (dolist (,word '(1)) (print ,word)) (dotimes (,word 2) (print ,word))
+    (do ((,word 1 (1+ ,word))) ((> ,word 2)))
+    (loop for ,word in '(1) collect ,word)
+    (loop with ,word = 1 for (nil . rest) on '(2) collect (list ,word rest))
+    (lambda (,word &key (other ,word)) (list ,word other))
+    (lambda (&optional ,word) ,word)
+    (destructuring-bind (,word . rest) '(1) (list ,word rest))
+    (multiple-value-bind (,word) 1 ,word)
+    (handler-case 1 (error (,word) ,word))
+    (with-output-to-string (,word) (print 1 ,word))
+    (flet ((own (,word) ,word)) (own 1)) (labels ((own (,word) ,word)) (own 1))
+    (macrolet ((own (,word) ,word)) (own 1))
+    (symbol-macrolet ((,word 1)) ,word)
+    (block ,word (return-from ,word 1))))
+
+(defun complaint-of-compiling (form)
+  "Return what the compiler says of FORM, or an empty string."
+  (with-output-to-string (*error-output*)
+    (multiple-value-bind (function warnings failure)
+        (handler-bind ((sb-ext:compiler-note #'muffle-warning))
+          (compile nil `(lambda () ,form)))
+      (declare (ignore function warnings))
+      (when failure (format *error-output* "~&failed: ~s" form)))))
+
+(test words-of-ours-are-bound-like-others
+  (let ((*package* (find-package :supergrip-test-user))
+        (words (exported-words)))
+    (is (< 100 (length words)))
+    (dolist (word words)
+      (is (equal "" (complaint-of-compiling `(list ,@(binding-forms word))))))
+    (is (equal "" (complaint-of-compiling
+                   '(list (flet ((supergrip:box () 1)) (supergrip:box))
+                     (labels ((supergrip:box () 1)) (supergrip:box))
+                     (macrolet ((supergrip:box () 1)) (supergrip:box))))))))
+
+(test functions-of-ours-are-not-redefined
+  (let ((*package* (find-package :supergrip-user))
+        (plan #'supergrip:plan))
+    (flet ((locked-p (form)
+             (handler-case (handler-bind ((warning #'muffle-warning))
+                             (eval form)
+                             nil)
+               (sb-ext:package-lock-violation () t))))
+      (dolist (form '((defun supergrip:plan (x) x) (defmacro supergrip:rule (x) x)
+                      (defun supergrip::start-plan () 1)
+                      (defun supergrip-chainer:recall () 1) (defun supergrip-data:form-text () 1)
+                      (defvar supergrip:plan 1) (defstruct supergrip:candidate a)
+                      (setf (symbol-function 'supergrip:forward-chain) #'car)))
+        (is (locked-p form) "~s" form))
+      (is (eq plan #'supergrip:plan)))
+    (is (every #'sb-ext:package-locked-p
+               '(:supergrip :supergrip-chainer :supergrip-data)))
+    (is (notany #'sb-ext:package-locked-p '(:supergrip-user :supergrip-words)))))
+
+(test forward-chain-takes-what-is-meant
+  (let ((supergrip:*plan* nil) (supergrip::*box* nil))
+    (flet ((best (&rest arguments)
+             (supergrip:plan-grasp (apply #'supergrip:forward-chain arguments))))
+      (is (equal "PINCH-3-PARALLEL" (best (paper-box) :stream nil)))
+      (is (equal "PINCH-3-PARALLEL" (best :box (paper-box) :stream nil)))
+      (is (equal '() (printed (best (paper-box) :trace nil))))
+      (is (equal (printed (best (paper-box))) (printed (best (paper-box) :stream t)))))
+    (loop for (text . arguments) in
+          `(("T is no level of trace: it is 0, nothing, to 4, everything" :trace t)
+            ("-1 is no level of trace: it is 0, nothing, to 4, everything" :trace -1)
+            ("RULES is no knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force"
+             :knowledge rules)
+            ("there is no box yet: set one as (setq box '((SIZE 12 2 2) (WEIGHT 0.2) ...))"
+             :box nil)
+            ("BOX: 3 is not a box description: it is a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)"
+             3))
+          do (is (equal text (error-text (apply #'supergrip:forward-chain
+                                                (append arguments
+                                                        (unless (or (member :box arguments)
+                                                                    (oddp (length arguments)))
+                                                          (list :box (paper-box)))))))))))
+
+(test questions-at-a-stop-are-about-the-run-in-hand
+  (let ((supergrip:*plan* (supergrip::plan (plan-box-too-heavy)))
+        (supergrip::*breaks* '())
+        (answers '()))
+    (supergrip:break-on 'grip4)
+    (supergrip:break-on '(corner (z1 y2 x2)))
+    (handler-bind
+        ((supergrip:chain-break
+           (lambda (condition)
+             (declare (ignore condition))
+             (push (list (printed (supergrip:how '(corner (z1 y1 x2))))
+                         (printed (supergrip:why-not 'surfaces3))
+                         (printed (supergrip:why-not 'grip4))
+                         (let ((last (first (last (let ((*standard-output*
+                                                          (make-broadcast-stream)))
+                                                    (supergrip:rule-counts))))))
+                           (list (first last) (fourth last)))
+                         (princ-to-string supergrip:*plan*)
+                         (error-text (supergrip:explain-best)))
+                   answers)
+             (invoke-restart 'continue))))
+      (supergrip:forward-chain (paper-box) :stream nil))
+    (destructuring-bind (at-grip4 at-corner) answers
+      (is (equal "(CORNER (Z1 Y1 X2)) is not known." (first (first at-corner))))
+      (is (eql 0 (search "(CORNER (Z1 Y1 X2)): RULE SURFACES3" (first (first at-grip4)))))
+      (is (eql 0 (search "RULE SURFACES3 did fire" (first (second at-corner)))))
+      (is (equal "RULE GRIP4 has not run yet: the run stands in RULE SURFACES3."
+                 (first (third at-corner))))
+      (is (equal "RULE GRIP4 has not run yet: the run stands before RULE GRIP4."
+                 (first (third at-grip4))))
+      (is (equal '("SURFACES3" 1) (fourth at-corner)))
+      (is (equal '("SURFACES4" 0) (fourth at-grip4)))
+      (is (equal "#<PLAN THE RUN IS NOT OVER>" (fifth at-grip4)))
+      (is (equal "the run is not over, so nothing is the best yet" (sixth at-grip4))))
+    (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp)) "then it is the plan")
+    (is (equal '("RULE GRIP4 did not fire: clause 1, (OBJECT HAS NO PARALLEL SURFACES), fails.")
+               (subseq (printed (supergrip:why-not 'grip4)) 0 1)))))
