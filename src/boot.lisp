@@ -78,7 +78,10 @@
 
   (defun recompile (restart condition)
     "Compile again, by RESTART, the compiled file that can't be loaded because of CONDITION."
-    (tell "a compiled file of SUPER-GRIP is damaged: ~a~%It is compiled again." condition)
+    ;; One that is not there was just replaced by another process.
+    (unless (and (typep condition 'file-error)
+                 (not (ignore-errors (probe-file (file-error-pathname condition)))))
+      (tell "a compiled file of SUPER-GRIP is damaged: ~a~%It is compiled again." condition))
     (invoke-restart restart))
 
   (defun load-compiled (system)

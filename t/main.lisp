@@ -354,7 +354,8 @@ cat \"$1\" | \"$0\" --input json --format sexp" (format nil "~afuzz-json.in" (di
       (is (search "built without cl-who" errors)))))
 
 (test internal-errors-say-what-to-send
-  (destructuring-bind (status errors) (run-with "(defun supergrip::run (&rest all) (car 'oops all))")
+  (destructuring-bind (status errors) (run-with "(sb-ext:unlock-package :supergrip)
+                                              (defun supergrip::run (&rest all) (car 'oops all))")
     (is (eql 70 status))
     (is (search "internal error: " errors))
     (is (search "To report it, send these lines" errors))))
