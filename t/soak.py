@@ -211,7 +211,7 @@ class Case:
 
     def choose_limits(self):
         if self.rng.random() < 0.3:
-            for key, low, high in (("depth", 5, 60), ("record", 2500, 9000), ("number", 40, 60),
+            for key, low, high in (("depth", 5, 60), ("record", 6000, 9000), ("number", 40, 60),
                                    ("name", 64, 90)):
                 if self.rng.random() < 0.5:
                     self.limits[key] = self.rng.randint(low, high)
@@ -450,14 +450,13 @@ def unclosed(case, notation):
 
 def too_many_closed(case, notation):
     """One parenthesis or brace too many."""
-    _, name, parts = case.fresh(notation)
+    _, _, parts = case.fresh(notation)
     close = "}" if notation == "json" else ")"
     if case.rng.random() < 0.5:
         item = case.good(notation, loose=False)
         return Item(item.text + close * case.rng.choice([1, 1, 2, 1000]), box=item.box,
-                    name=item.name,
-                    least=0, most=1, either=True)
-    parts = [part for part in parts if "\n" not in part]
+                    name=item.name, least=0, most=1, either=True)
+    parts = [part for part in parts if "name" not in part.lower()]
     parts[case.rng.randrange(len(parts) - 1)] += close
     text, _ = case.join(parts, notation, loose=False)
     return Item(text, name=any)
@@ -590,7 +589,7 @@ def guarded(item, before, notation):
                                                                            item.text, re.I)
     if before is not None and before.open and not starts:
         for one in (before, item):
-            one.wild, one.open, one.least, one.most = True, True, 0, 10 ** 6
+            one.wild, one.open, one.alone, one.least, one.most = True, True, True, 0, 10 ** 6
     return item
 
 
@@ -1224,6 +1223,27 @@ def closed_output(soak, rng):
     return len(case.boxes)
 
 
+def reports(soak, rng):
+    """A report has a page for each box, or says which could not be drawn; a signal ends it."""
+    case, stream = plain(soak, rng, rng.choice([1, 5, 20]))
+    directory = soak.directory / rng.choice([name for name in ODD_NAMES if name not in "-~"])
+    boxes = soak.write("boxes", stream.data())
+    number, moment = rng.choice([signal.SIGTERM, signal.SIGINT]), soak.start + rng.uniform(0.02, 0.3)
+    stopped = rng.random() < 0.5
+    result = run(soak.command(["--format", "json", f"--report={directory}", boxes]),
+                 signals=[(moment, number)] if stopped else ())
+    if b"cl-who" in result.err:
+        return 0                        # built without the pictures
+    soak.check_end(result, [0, 128 + number] if stopped else [0])
+    sent = soak.last
+    compare_prefix(case, stream, records_of(result.out, "json"), soak.answers(case))
+    soak.last = sent
+    pages = len(list(directory.glob("*.html"))) if directory.is_dir() else 0
+    if result.status == 0 and pages != len(case.boxes) + 1 and not result.err:
+        raise Failure(f"{pages} pages of {len(case.boxes)} boxes and an index in {directory}")
+    return len(case.boxes)
+
+
 def absent(soak, rng):
     """Files that can't be read: 66, and all others are answered."""
     case, stream = plain(soak, rng, rng.choice([1, 30]))
@@ -1427,7 +1447,7 @@ def growth(soak, rng):
 
 KINDS = [(mixed, 30), (boundary, 3), (array, 3), (flood, 3), (first_line, 2), (signals, 6),
          (two_signals, 1),
-         (closed_output, 2), (absent, 2), (usage, 1), (utf16, 1), (other_notation, 1), (knowledge,
+         (closed_output, 2), (reports, 1), (absent, 2), (usage, 1), (utf16, 1), (other_notation, 1), (knowledge,
                                                                                         5),
          (growth, 3)]
 
