@@ -1,7 +1,7 @@
 ;;;; grasps.lisp -- the gripper and the seven grasps of SUPER-GRIP.
 ;;;;
 ;;;; This file is data: it is read by SUPER-GRIP's own reader, checked, and turned into
-;;;; functions.  Nothing in it is ever evaluated by Lisp.  README.md, "The grasp language",
+;;;; functions.  Nothing in it is ever evaluated by Lisp.  docs/languages.md, "Grasps",
 ;;;; says what may stand here.
 ;;;;
 ;;;; Frame N O A at the grasp centre; face N1 lies on the + side of N, N2 on the - side, and so
@@ -92,7 +92,7 @@
 ;;;; ---------------------------------------------------------------- a pair and a third face
 
 ;;; The statics of a pair that closes across the distance d and a third finger at the distance
-;;; q from it, along that finger's axis.  Exact (README, "Statics").
+;;; q from it, along that finger's axis.  Exact (docs/physics.md).
 
 ;;; Reconstructed: statics, the greatest force along the axis of the pair.
 (DEFUN PAIR-FORCE (d q)

@@ -1,7 +1,7 @@
 ;;;; rules.lisp -- the fifteen high-level rules of SUPER-GRIP.
 ;;;;
 ;;;; This file is data: read by SUPER-GRIP's own reader, checked and turned into functions.
-;;;; README.md, "The rule language", says what may stand here.  Rules run in the order of this
+;;;; docs/languages.md, "Rules", says what may stand here.  Rules run in the order of this
 ;;;; file, each once: a rule that determines a property stands before the rules that use it.
 ;;;;
 ;;;; From the box and the gripper come: OPPOSED (s1 s2), SMALL (s1 s2), NARROW (s1 s2),

@@ -1,4 +1,4 @@
-;;;; The pictures of the README, and a report on the pencil:
+;;;; The pictures of docs/, and a report on the pencil:
 ;;;;
 ;;;;   sbcl --script examples/figures.lisp [DIRECTORY]
 ;;;;

@@ -18,7 +18,7 @@ record a box to standard output, in the same order: the best of seven grasps for
   --grasps FILE             grasps and gripper to use instead of those that are built in
   --gamma X                 from 0, forces alone, to 1, velocities alone; 0.5 by default
   --report DIR              also write a page for each box into DIR, and an index with thumbnails;
-                            needs the pictures (README, Pictures), and keeps all plans till the end
+                            needs cl-who (docs/pictures.md), and keeps all plans till the end
   --check                   only read the rules and grasps, and say what is wrong with them
   --depth-limit N           how deep lists may nest; 32 by default, 1000 at most
   --record-limit N          the most characters of one box; 65536 by default, 1000000 at most

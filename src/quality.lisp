@@ -43,14 +43,14 @@ makes of NEEDS from the place FROM: |o_Y| n_Z + |o_Z| n_Y to the first, and so o
 
 (defun shift-force (needs offset out)
   "Put into OUT the forces and torques NEEDS at the box centre as they are at the grasp centre,
-OFFSET from it: the torques grow.  Source: reconstructed, see README, Reconstruction."
+OFFSET from it: the torques grow.  Source: reconstructed, see docs/physics.md."
   (declare (type six needs out) (type three offset))
   (replace out needs)
   (add-turned offset 0 needs out 3))
 
 (defun shift-velocity (needs offset out)
   "Put into OUT the velocities NEEDS at the box centre as they are at the grasp centre, OFFSET from
-it: those along the axes grow.  Source: reconstructed, see README, Reconstruction."
+it: those along the axes grow.  Source: reconstructed, see docs/physics.md."
   (declare (type six needs out) (type three offset))
   (replace out needs)
   (add-turned offset 3 needs out 0))

@@ -1,8 +1,9 @@
 ;;;; documents.lisp -- what README.md and docs/ show is what happens.
 ;;;;
 ;;;; A `lisp` block that begins with the prompt * is a transcript of the REPL, and is typed again; each
-;;;; document starts from nothing.  Another `lisp` block is data, and must be valid.  In a `console`
-;;;; block each line that begins with $ is a command; it runs in the project's directory.
+;;;; document starts from nothing.  Another `lisp` block is data, and must be valid; a `json` block is
+;;;; a box.  In a `console` block each line that begins with $ is a command; it runs in the project's
+;;;; directory.
 
 (in-package :supergrip-test)
 (in-suite all)
@@ -180,6 +181,21 @@
                  (is (string= (without-space lines) (without-space (lines-of output)))
                      "~a: ~a printed~%~a~a" document command output errors))))))
 
+;;; The batch
+
+(test documents-show-boxes-in-json-that-are-valid
+  (dolist (document (documents))
+    (dolist (block (fenced-blocks document "json"))
+      (is (equal '("grasp") (statuses (answers (format nil "~{~a~%~}" block)))) document))))
+
+(test the-page-on-the-batch-names-every-option
+  (let ((page (file-text "docs/batch.md"))
+        (help (nth-value 1 (run-process (list (program) "--help")))))
+    (loop for line in (lines-of help)
+          for option = (string-trim " " line)
+          when (eql 0 (search "--" option))
+            do (is (search (subseq option 0 (position #\Space option)) page) option))))
+
 ;;; Links
 
 (defparameter *directories* '("src/" "t/" "examples/" "docs/"))
@@ -199,7 +215,7 @@ to the project, if they are in one of *DIRECTORIES*."
      (loop for link in (texts-between "](" #\) text)
            for name = (subseq link 0 (position #\# link))
            unless (or (search "://" link) (string= name ""))
-             collect (merge-pathnames name (project-file document)))
+             collect (uiop:subpathname (project-file document) name))
      (loop for directory in *directories*
            append (loop for rest in (texts-between (format nil "`~a" directory) #\` text)
                         for name = (concatenate 'string directory rest)

@@ -1,4 +1,4 @@
-;;;; report.lisp -- measures everything and prints it in tables, as the README has them.
+;;;; report.lisp -- measures everything and prints it in tables, as docs/speed.md has them.
 
 (in-package :supergrip-bench)
 

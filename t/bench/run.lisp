@@ -1,6 +1,6 @@
 ;;;; run.lisp -- sbcl --script t/bench/run.lisp [QUICK] measures SUPER-GRIP and its neighbours.
 ;;;;
-;;;; It prints the tables of the README.  QUICK, any word, measures short and is not accurate.
+;;;; It prints the tables of docs/speed.md.  QUICK, any word, measures short and is not accurate.
 
 (require :asdf)
 
