@@ -8,8 +8,9 @@
 (defstruct (batch (:constructor make-batch (knowledge gamma notation format output)))
   "What records are made with, and how many were.  NOTATION is :LISP, :JSON or NIL, to tell from
 the input; FORMAT is :TRACE, :LISP, :JSON or NIL, as the input.  BAD counts the error records;
-BROKEN is true if one of them was an internal error.  PLANS holds the plans for a report, the latest
-first, if KEEP is true."
+BROKEN is true if one of them was an internal error.  LAST, after an error record, whose box may go
+on, is the line where it ended, or :REST once it did go on.  PLANS holds the plans for a report, the
+latest first, if KEEP is true."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
   notation format
@@ -17,6 +18,7 @@ first, if KEEP is true."
   (done 0 :type fixnum)
   (bad 0 :type fixnum)
   (broken nil)
+  (last nil)
   (keep nil) (plans '() :type list)
   (after-record nil :type (or null function)))
 
@@ -25,19 +27,27 @@ first, if KEEP is true."
 Signals a SYSTEM-FAILURE if the one can't be read or the other not written."
   (let* ((input (make-input descriptor (lambda () (flush-output (batch-output batch)))))
          (source (input-source input nil))
-         (notation (or (batch-notation batch) (notation-of source))))
-    (setf (input-notation input) notation)
+         (notation (or (batch-notation batch) (told-notation input source))))
+    (setf (input-notation input) notation
+          (batch-last batch) nil)
     (unless (or (batch-format batch) (null (skip-to-json source))) ; nothing at all is in no notation
       (setf (batch-format batch) notation))
-    (let ((*notation* notation))
+    (let ((*notation* notation)
+          (*places* (lambda (spot) (spot-place source spot))))
+      (skip-to-json source)
+      (when (utf-16-p (source-buffer source) (source-position source) (source-end source))
+        (answer-utf-16 batch source))
       (if (eq notation :json)
           (run-json batch source input)
           (run-lisp batch source input)))
     (flush-output (batch-output batch))))
 
-(defun notation-of (source)
-  "Return :JSON if what SOURCE holds begins as JSON does, with { or [; else :LISP."
-  (if (member (skip-to-json source) '(#\{ #\[)) :json :lisp))
+(defun spot-place (source spot)
+  "Return the line and the column of SPOT (see VALUE-SPOT) in the record read last; :END is where it
+ends."
+  (if (eq spot :end)
+      (values (source-line source) (1- (source-column source)))
+      (part-place source spot)))
 
 (defun next-record (input source skip)
   "Go by the function SKIP to the next record, and return its first character, or NIL at the end
@@ -56,7 +66,24 @@ or if a signal came."
                  (column (source-column source)))
              (multiple-value-bind (form problems) (read-lisp-box source input)
                (when (and problems *signal*) (return))
-               (answer batch form problems line column)))))
+               (if (rest-of-box-p batch form problems line)
+                   (setf (batch-last batch) :rest)
+                   (answer batch form problems line column (end-line source)))))))
+
+(defun end-line (source)
+  "Return the line in which what SOURCE has read ends."
+  (- (source-line source) (if (= (source-column source) 1) 1 0)))
+
+(defun rest-of-box-p (batch form problems line)
+  "True if FORM, or what has PROBLEMS, is what is left of a box that a parenthesis too many ended."
+  (if problems
+      (and (goes-on-p batch line)
+           (search "a closing parenthesis too many" (problem-text (first problems))))
+      (and (batch-last batch) (consp form) (namep (first form)) (key-named (first form)))))
+
+(defun goes-on-p (batch line)
+  "True if what closes something in LINE may belong to the box of the error record before."
+  (member (batch-last batch) (list line :rest)))
 
 (defun read-lisp-box (source input)
   "Return the form of the next record, or NIL and the list of what is wrong."
@@ -88,6 +115,9 @@ end of the array; :VALUE, after a comma; :COMMA, after a value; :ANY, after an e
   (let ((state :start) (array-line 0) (array-column 0))
     (loop for character = (next-record input source #'skip-to-json)
           while character
+          unless (and (goes-on-p batch (source-line source))
+                      (find character (if (eq state :start) ",}" "}"))
+                      (take-character source)) ; of the box before
           do (let ((line (source-line source))
                    (column (source-column source)))
                (flet ((bad (text)
@@ -109,12 +139,21 @@ end of the array; :VALUE, after a comma; :COMMA, after a value; :ANY, after an e
                        ((char= character #\,)
                         (when (member state '(:first :value))
                           (bad "a comma too many"))
-                        (take-character source)
+                        (loop do (take-character source)
+                              while (and (eq state :value) (eql (skip-to-json source) #\,)))
                         (setf state :value))
                        (t
                         (setf state (run-json-value batch source input state line column)))))))
     (unless (or *signal* (eq state :start))
       (answer-mistake batch "this array is never closed" array-line array-column))))
+
+(defun answer-utf-16 (batch source)
+  "Write the one record of text in UTF-16, and skip it: its lines begin with half of a character."
+  (answer-mistake batch "this is UTF-16; boxes are read as UTF-8, which iconv -f UTF-16 -t UTF-8 makes of it"
+                  (source-line source) (source-column source))
+  (loop while (and (peek source)
+                   (or (char/= (take-character source) #\Newline)
+                       (eql (peek source) (code-char 0))))))
 
 (defun answer-mistake (batch text line column)
   "Write the record of a fragment at LINE and COLUMN that is no value."
@@ -122,32 +161,40 @@ end of the array; :VALUE, after a comma; :COMMA, after a value; :ANY, after an e
 
 (defun run-json-value (batch source input state line column)
   "Answer the value that SOURCE stands at, and return the state after it if it is in an array."
-  (multiple-value-bind (value problems) (read-json-box source input (eq state :start))
+  (multiple-value-bind (value problems)
+      (read-json-box source input (eq state :start) (batch-last batch))
+    (when (eq problems :rest)
+      (setf (batch-last batch) :rest)
+      (return-from run-json-value :any))
     (when (and (null problems) (eq state :comma))
       (setf problems (list (make-problem :line line :column column
                                          :text "a comma is missing before this value"))))
     (unless (and problems *signal*)
-      (answer batch (json-description value) problems line column))
+      (answer batch (json-description value) problems line column (end-line source)))
     (if problems :any :comma)))
 
-(defun read-json-box (source input alone)
+(defun read-json-box (source input alone after-error)
   "Return the value of the next record, or NIL and the list of what is wrong.  ALONE is true if it
-is not in an array, so that the rest of its line belongs to it if it is no object."
+is not in an array, so that the rest of its line belongs to it if it is no object.  Where a key stands
+AFTER-ERROR, a brace before it was one too many: what it ended is skipped; the list is :REST then."
   (let ((stops (if alone "{" ",]{")))
     (handler-case
         (let ((value (read-json source)))
-          (when (and alone (not (json-object-p value)))
-            (skip-json source stops))
-          value)
+          (cond ((and after-error (stringp value) (eql (peek source) #\:))
+                 (skip-json source "" 1)
+                 (values nil :rest))
+                (t (when (and alone (not (json-object-p value)))
+                     (skip-json source stops))
+                   value)))
       (syntax-error (condition)
         (skip-json source stops)
         (values nil (problems-of condition source input))))))
 
 ;;; Records
 
-(defun answer (batch description problems line &optional column)
+(defun answer (batch description problems line &optional column end)
   "Write the record of the box that DESCRIPTION describes, or of PROBLEMS.  It begins at LINE and
-COLUMN."
+COLUMN, and ends in the line END."
   (multiple-value-bind (result problems broken)
       (if problems
           (values nil problems nil)
@@ -155,6 +202,7 @@ COLUMN."
     (let ((result (or result (problem-result batch description problems line)))
           (output (batch-output batch)))
       (when problems (incf (batch-bad batch)))
+      (setf (batch-last batch) (and problems end))
       (when broken (setf (batch-broken batch) t))
       (ecase (batch-format batch)
         (:trace (put-box-line batch description line)
@@ -182,7 +230,7 @@ COLUMN."
   "Return the record, or the lines, of the plan for the box of DESCRIPTION; or NIL, the problems,
 and whether they are ours."
   (handler-case
-      (let ((plan (plan (canonical-box (unwrap-box description) nil line)
+      (let ((plan (plan (canonical-box description nil line)
                         :knowledge (batch-knowledge batch) :gamma (batch-gamma batch))))
         (when (batch-keep batch)
           (push plan (batch-plans batch)))
@@ -192,7 +240,7 @@ and whether they are ours."
     (box-error (condition)
       (let ((problems (input-error-problems condition)))
         (dolist (problem problems)
-          (setf (problem-column problem) column))
+          (unless (problem-column problem) (setf (problem-column problem) column)))
         (values nil problems nil)))
     ((or error storage-condition) (condition)
       (values nil
@@ -206,9 +254,7 @@ and whether they are ours."
   (if (eq (batch-format batch) :trace)
       (format nil "~{(BAD BOX: ~a)~%~}--END--~%"
               (loop for problem in problems
-                    collect (substitute-if #\Space (lambda (character)
-                                                     (char< character #\Space))
-                                           (problem-reason problem))))
+                    collect (visible-text (problem-reason problem))))
       (error-record problems :name (description-name description) :line line)))
 
 (defun description-name (description)

@@ -93,11 +93,28 @@ in each of the two notations."
   "Return the clause of KEY with VALUES as the user wrote it."
   (if (eq *notation* :json)
       (json-clause-text key values)
-      (format nil "(~a~{ ~a~})" key (mapcar #'form-text values))))
+      (form-text (cons key values))))
 
-(defun refuse-value (key values)
+;;; Where a part stands: for the reports, a list of numbers that PART-PLACE understands.
+
+(defvar *path* '() "Where in its record the description being checked is: '() or inside QUOTE and SETQ.")
+(defvar *clause* 0 "The number, from 0, of the clause being checked.")
+
+(defun clause-spot ()
+  "Return where the clause being checked begins."
+  (append *path* (list (if (eq *notation* :json) (* 2 *clause*) *clause*))))
+
+(defun value-spot (key &rest numbers)
+  "Return where a part of the value of KEY in the clause being checked begins: as NUMBERS say, a value,
+and an element of that."
+  (append *path*
+          (cond ((not (eq *notation* :json)) (cons *clause* (cons (1+ (first numbers)) (rest numbers))))
+                ((member key '(:size :constrained)) (cons (1+ (* 2 *clause*)) numbers))
+                (t (cons (1+ (* 2 *clause*)) (rest numbers))))))
+
+(defun refuse-value (key values &optional (spot (clause-spot)))
   (let ((entry (find-key key)))
-    (complain nil "~a is not valid: ~a takes ~a" (clause-text key values) (key-name entry)
+    (complain spot "~a is not valid: ~a takes ~a" (clause-text key values) (key-name entry)
               (key-takes entry))))
 
 (defun number-in (value least most)
@@ -105,13 +122,16 @@ in each of the two notations."
   (let ((number (and (realp value) (as-double value))))
     (and number (>= number least) (or (null most) (<= number most)) number)))
 
-(defun number-list (key list count least most values)
-  "Return LIST, COUNT numbers from LEAST to MOST, as an array of doubles, or complain."
+(defun number-list (key list count least most values &rest spot)
+  "Return LIST, COUNT numbers from LEAST to MOST, as an array of doubles, or complain.  SPOT are the
+numbers of the place of LIST among VALUES, for VALUE-SPOT."
   (let ((numbers (make-array count :element-type 'double-float))
         (place 0))
     (dolist (value (and (listp list) list))
       (let ((number (and (< place count) (number-in value least most))))
-        (unless number (return-from number-list (refuse-value key values)))
+        (unless number
+          (return-from number-list
+            (refuse-value key values (apply #'value-spot key (append spot (list place))))))
         (setf (aref numbers place) number)
         (incf place)))
     (if (= place count)
@@ -120,43 +140,62 @@ in each of the two notations."
 
 (defun face-set (values)
   "Return the set of faces that VALUES name, or complain."
-  (let ((set 0))
-    (dolist (value values set)
-      (let ((face (and (namep value) (surface-index value))))
-        (cond ((null face)
-               (return (complain nil "~a is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2~
-                                      ~:[~;, without parentheses of their own~]"
-                                 (value-text value) (consp value))))
-              ((logbitp face set)
-               (return (complain nil "~a is constrained twice" (value-text value))))
-              (t (setf set (logior set (ash 1 face)))))))))
+  (let ((set 0) (good t))
+    (loop for value in values
+          for number from 0
+          do (let ((face (and (namep value) (surface-index value))))
+               (cond ((null face)
+                      (setf good (complain (value-spot :constrained number)
+                                           "~a is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 ~
+                                            Z2~:[~;, without parentheses of their own~]"
+                                           (value-text value) (consp value))))
+                     ((logbitp face set)
+                      (setf good (complain (value-spot :constrained number)
+                                           "~a is constrained twice" (value-text value))))
+                     (t (setf set (logior set (ash 1 face)))))))
+    (and good set)))
+
+(defun null-name-p (value)
+  "True if VALUE is what stands for no name in our records: NIL or null."
+  (or (null value) (name= value "NIL")
+      (and (json-literal-p value) (string= (json-literal-text value) "null"))))
 
 (defun box-value (key values)
   "Return the value of KEY that VALUES, the rest of its clause, give.  NIL after a complaint."
-  (flet ((only (value) (if (and value (null (rest values))) value (refuse-value key values))))
+  (flet ((only (value)
+           (cond ((rest values) (refuse-value key values))
+                 (value)
+                 (t (refuse-value key values (value-spot key 0))))))
     (unless (listp values)
       (return-from box-value (refuse-value key values)))
     (ecase key
-      (:name (only (and (stringp (first values)) (first values))))
+      (:name (if (and values (null (rest values)) (null-name-p (first values)))
+                 nil
+                 (only (and (stringp (first values)) (first values)))))
       (:size (let ((size (number-list key values 3 0 nil values)))
                (cond ((null size) nil)
                      ((every #'plusp size) size)
-                     (t (refuse-value key values)))))
+                     (t (refuse-value key values
+                                      (value-spot key (position-if-not #'plusp size)))))))
       ((:weight :u :v) (only (number-in (first values) 0 nil)))
       (:constrained (face-set values))
       ((:force-needed :velocity-needed)
        (if (rest values)
            (refuse-value key values)
-           (number-list key (first values) 6 0 1 values))))))
+           (number-list key (first values) 6 0 1 values 0))))))
 
 (defun unwrap-box (form)
-  "Return the description in FORM, which may be '(...), or (SETQ BOX '(...))."
-  (cond ((and (consp form) (name= (first form) "QUOTE") (= (length form) 2))
-         (unwrap-box (second form)))
-        ((and (consp form) (name= (first form) "SETQ") (= (length form) 3)
-              (name= (second form) "BOX"))
-         (unwrap-box (third form)))
-        (t form)))
+  "Return the description in FORM, which may be '(...), or (SETQ BOX '(...)); and where in FORM it is,
+a list of numbers, each that of an element."
+  (flet ((unwrap (number)
+           (multiple-value-bind (description path) (unwrap-box (nth number form))
+             (values description (cons number path)))))
+    (cond ((and (consp form) (name= (first form) "QUOTE") (= (length form) 2))
+           (unwrap 1))
+          ((and (consp form) (name= (first form) "SETQ") (= (length form) 3)
+                (name= (second form) "BOX"))
+           (unwrap 2))
+          (t (values form '())))))
 
 (defun key-named (name)
   "Return the entry of the key NAME, a symbol or, in JSON, a string; or NIL."
@@ -173,36 +212,48 @@ in each of the two notations."
                     (first clause)))
          (entry (and name (key-named name))))
     (cond ((null name)
-           (complain nil "~a is not a part of a box description: its parts are lists as ~
-                          (SIZE 12 2 2)" (form-text clause)))
+           (complain (clause-spot) "~a is not a part of a box description: its parts are lists as ~
+                                    (SIZE 12 2 2)" (value-text clause)))
           ((null entry)
-           (complain nil "unknown key ~a~a; keys are ~{~a~^, ~}" (value-text name)
+           (complain (clause-spot) "unknown key ~a~a; keys are ~{~a~^, ~}" (value-text name)
                      (suggestion (string name) (mapcar (if (stringp name)
                                                            #'box-key-json
                                                            (lambda (entry)
                                                              (symbol-name (box-key-key entry))))
                                                        +box-keys+))
                      (mapcar #'key-name +box-keys+)))
-          ((member (box-key-key entry) keys) (complain nil "~a is given twice" (key-name entry)))
+          ((member (box-key-key entry) keys)
+           (complain (clause-spot) "~a is given twice" (key-name entry)))
           (t (box-key-key entry)))))
 
 (defun box-values (description)
   "Return a plist of the values in DESCRIPTION, a list of clauses, complaining of what is wrong."
-  (let ((values '()) (keys '()))
+  (let ((values '()) (keys '()) (*clause* 0))
     (dolist (clause description)
       (let ((key (clause-key clause keys)))
         (when key
           (push key keys)
-          (setf (getf values key) (box-value key (rest clause))))))
-    (dolist (entry +box-keys+)
-      (unless (or (eq (box-key-key entry) :name) (member (box-key-key entry) keys))
-        (complain nil "~a is missing; it takes ~a" (key-name entry) (key-takes entry))))
+          (setf (getf values key) (box-value key (rest clause)))))
+      (incf *clause*))
+    (complain-of-missing keys)
     (when (and (getf values :force-needed) (getf values :velocity-needed)
                (every #'zerop (the six (getf values :force-needed)))
                (every #'zerop (the six (getf values :velocity-needed))))
-      (complain nil "the task needs nothing: ~a and ~a are all 0"
+      (complain *path* "the task needs nothing: ~a and ~a are all 0"
                 (key-name (find-key :force-needed)) (key-name (find-key :velocity-needed))))
     values))
+
+(defun complain-of-missing (keys)
+  "Complain if KEYS lack one that a box must have.  Where the box was read, a parenthesis too many may
+have ended it."
+  (let ((missing (remove-if (lambda (entry)
+                              (or (eq (box-key-key entry) :name) (member (box-key-key entry) keys)))
+                            +box-keys+)))
+    (dolist (entry missing)
+      (complain *path* "~a is missing; it takes ~a" (key-name entry) (key-takes entry)))
+    (when (and missing *places*)
+      (complain :end "the box ends here; if parts of it follow, one ~a too many stands here or before"
+                (if (eq *notation* :json) "}" ")")))))
 
 (defun parse-box (form &key file line)
   "Return the box that FORM describes: the paper's list
@@ -212,29 +263,37 @@ inside (SETQ BOX '...).  Names may be of any package.  FILE and LINE are used in
 
 Sizes in cm; weight in units of one finger's greatest normal force; V in cm; needs from 0 to 1.
 Signals a BOX-ERROR that holds all that is wrong with it."
-  (let ((description (unwrap-box (handler-case (canonical form)
-                                   (syntax-error (condition)
-                                     (error 'box-error
-                                            :problems (input-error-problems condition)))))))
-    (canonical-box description file line)))
+  (canonical-box (handler-case (canonical form)
+                   (syntax-error (condition)
+                     (error 'box-error :problems (input-error-problems condition))))
+                 file line))
 
-(defun canonical-box (description file line)
-  "Return the box of DESCRIPTION, as the data reader returns it, or signal a BOX-ERROR."
+(defun canonical-box (form file line)
+  "Return the box of FORM, as the data reader returns it, or signal a BOX-ERROR."
   (multiple-value-bind (values problems)
-      (let ((*file* nil) (*lines* nil) (*subject* "BOX") (*place* nil))
-        (with-problems
-          (if (and (consp description) (some #'consp description))
-              (box-values description)
-              (complain nil "~a is not a box description: ~a" (value-text description)
-                        (if (eq *notation* :json)
-                            "it is an object as {\"size\": [12, 2, 2], \"weight\": 0.2, ...}"
-                            "it is a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)")))))
+      (multiple-value-bind (description *path*) (unwrap-box form)
+        (check-description description))
     (when problems
       (dolist (problem problems)
-        (setf (problem-file problem) file (problem-line problem) line))
+        (setf (problem-file problem) file)
+        (unless (problem-line problem) (setf (problem-line problem) line)))
       (error 'box-error :problems problems))
     (%make-box :name (getf values :name) :size (getf values :size)
                :weight (getf values :weight) :u (getf values :u) :v (getf values :v)
                :constrained (getf values :constrained)
                :force (getf values :force-needed) :velocity (getf values :velocity-needed)
                :line line)))
+
+(defun check-description (description)
+  "Return the plist of the values in DESCRIPTION, and the list of the problems in it."
+  (let ((*file* nil) (*lines* nil) (*subject* "BOX") (*place* nil))
+    (with-problems
+      (cond ((and (part-p description "SETQ") (nthcdr 3 description))
+             (complain (list 3) "~a stands after the end of the box: a ) before it is one too many"
+                       (value-text (fourth description))))
+            ((and (consp description) (some #'consp description))
+             (box-values description))
+            (t (complain *path* "~a is not a box description: ~a" (value-text description)
+                         (if (eq *notation* :json)
+                             "it is an object as {\"size\": [12, 2, 2], \"weight\": 0.2, ...}"
+                             "it is a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)")))))))

@@ -26,7 +26,7 @@ stays, and the KNOWLEDGE-ERROR says so."
   "Read the files of the knowledge in force again, or the files RULES and GRASPS, and put what they
 hold into force.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
   (flet ((file (given in-force)
-           (or given (data-file-path in-force))))
+           (or given in-force)))
     (put-into-force #'accept-files
                     (lambda ()
                       (build-knowledge

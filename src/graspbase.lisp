@@ -50,6 +50,8 @@ start from."
 
 ;;; Helper functions
 
+(defparameter +most-helpers+ 1000 "The most helpers that a grasp file may have.")
+
 (defun parse-helper (form scope)
   "Add the helper of FORM, (DEFUN name (parameter...) form), to SCOPE, or complain."
   (let* ((name (and (consp (rest form)) (namep (second form)) (second form)))
@@ -58,6 +60,9 @@ start from."
     (cond ((or (null name) (/= (length form) 4) (not (listp (third form)))
                (notevery #'namep parameters))
            (complain form "a helper is (DEFUN name (parameter...) form)"))
+          ((nthcdr +most-helpers+ (scope-functions scope))
+           (let ((*subject* nil))
+             (complain form "more than ~d helpers" +most-helpers+)))
           ((or (find-operator (symbol-name name))
                (assoc name (scope-functions scope) :test #'name=))
            (complain form "~a is already an operator" name))
@@ -129,6 +134,8 @@ start from."
           (t (let ((place (parse-forms (rest contact) scope :number)))
                (and place (cons slot place)))))))
 
+(defparameter +most-contacts+ 50 "The most contacts that a grasp may have.")
+
 (defun parse-contacts (entry used palm scope form)
   "Return the contacts, by default one in the middle of each used face but the palm's."
   (let ((contacts (if entry
@@ -136,6 +143,8 @@ start from."
                       (loop for slot in used
                             unless (eql slot palm) collect (list (svref +slots+ slot) 0 0)))))
     (cond ((null contacts) (complain form "CONTACTS lists no contact"))
+          ((nthcdr +most-contacts+ contacts)
+           (complain form "CONTACTS lists more than ~d contacts" +most-contacts+))
           (t (let ((parsed (loop for contact in contacts
                                  collect (parse-contact contact used scope))))
                (and (notany #'null parsed) parsed))))))
@@ -191,8 +200,9 @@ start from."
             (let ((*place* "TWIST"))
               (setf twist (complain (value "TWIST") "an entry below 0: mobility is 0 or more"))))
           (and used palm contacts conditions offset wrench twist
-               (make-draft :name (symbol-name name) :form form :file *file*
-                           :line (and *lines* (gethash form *lines*))
+               (make-draft :name (symbol-name name) :form form
+                           :file (form-file form)
+                           :line (form-line form)
                            :comment (and *comments* (gethash form *comments*))
                            :used used :palm palm :contacts contacts :conditions conditions
                            :offset offset :wrench wrench :twist twist)))))))
@@ -289,7 +299,8 @@ are known all the same, so that no form is blamed for them."
 Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
   (let* ((gripper (build-gripper forms))
          (scope (global-scope gripper))
-         (drafts '()) (broken '()))
+         (drafts '()) (broken '())
+         (names (make-hash-table :test #'equal)))
     (dolist (form forms)
       (let ((*form* form))
         (cond ((gripper-form-p form))
@@ -299,10 +310,11 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
                      (cond ((null draft)
                             (when (and (consp form) (consp (rest form)) (namep (second form)))
                               (push (symbol-name (second form)) broken)))
-                           ((find (draft-name draft) drafts :key #'draft-name :test #'string=)
+                           ((gethash (draft-name draft) names)
                             (let ((*subject* (format nil "GRASP ~a" name)))
                               (complain form "there is a grasp of this name before it")))
-                           (t (push draft drafts)))))))))
+                           (t (setf (gethash (draft-name draft) names) t)
+                              (push draft drafts)))))))))
     (let* ((layout (scope-layout scope))
            (grasps (loop for draft in (reverse drafts) collect (finish-grasp draft layout))))
       (loop for grasp in grasps for index from 0 do (setf (grasp-index grasp) index))

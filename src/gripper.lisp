@@ -7,6 +7,8 @@
     "SLIPPERY-U")
   "The dimensions that SUPER-GRIP itself or the printed grasp needs; a gripper may have others.")
 
+(defparameter +most-dimensions+ 200 "The most dimensions that a gripper may have.")
+
 (defun parse-dimension (name value form)
   (cond ((name-in name '("U" "V" "T"))
          (complain form "~a can't be a dimension: it means something else in a form" name))
@@ -18,6 +20,9 @@
   "Return the alist of the dimensions in LIST, names and numbers in turn, complaining of what is
 wrong."
   (let ((dimensions '()) (names '()))
+    (when (nthcdr (* 2 +most-dimensions+) list)
+      (return-from parse-gripper
+        (complain form "more than ~d dimensions" +most-dimensions+)))
     (loop while list
           do (let ((name (pop list)))
                (cond ((not (namep name))
@@ -66,8 +71,9 @@ wrong."
 
 (defun build-gripper (forms)
   "Return the gripper that the one (SETQ GRIPPER ...) among FORMS gives, or complain."
-  (let ((grippers (remove-if-not #'gripper-form-p forms))
-        (*subject* "GRIPPER"))
+  (let* ((grippers (remove-if-not #'gripper-form-p forms))
+         (*form* (first grippers))
+         (*subject* "GRIPPER"))
     (cond ((null grippers) (complain nil "there is no (SETQ GRIPPER '(...))"))
           (t
            (dolist (second (rest grippers))

@@ -7,8 +7,6 @@
 
 (in-package :supergrip)
 
-(defconstant +look-ahead+ 5 "How many characters tell whether a line starts a record.")
-
 (defstruct (input (:constructor make-input (descriptor before-waiting)))
   "A descriptor being read.  BEFORE-WAITING is called before each wait for octets.  The characters
 from PLACE to END of CHARACTERS are not given to the reader yet.  NOTATION is :LISP or :JSON, NIL
@@ -18,11 +16,10 @@ one has ended it."
   (before-waiting nil :type function)
   (octets (make-array 65536 :element-type '(unsigned-byte 8)) :type octets)
   (octets-end 0 :type fixnum)
-  (characters (make-string (+ 65536 +look-ahead+)) :type (simple-array character (*)))
+  (characters (make-string (* 2 65536)) :type (simple-array character (*)))
   (place 0 :type fixnum)
   (end 0 :type fixnum)
   (at-end nil)
-  (fresh t)                             ; nothing read yet
   (line-start t)
   (notation nil)
   (open nil)
@@ -112,18 +109,51 @@ end."
                                      (input-octets-end input))))
                (setf (input-at-end input) (= end (input-octets-end input))
                      (input-octets-end input) end))
-             (decode input)
-             (skip-mark input))
+             (decode input))
     (> (input-end input) before)))
 
-(defun skip-mark (input)
-  "Drop a byte order mark at the beginning of INPUT."
-  (when (and (input-fresh input) (plusp (input-end input)))
-    (setf (input-fresh input) nil)
-    (let ((characters (input-characters input)))
-      (when (char= (schar characters 0) (code-char #xfeff))
-        (replace characters characters :start2 1 :end2 (input-end input))
-        (decf (input-end input))))))
+;;; The notation
+
+(defun blank-before-box-p (character)
+  "True if CHARACTER tells nothing of the notation: it is blank, or stands in UTF-16."
+  (find character (load-time-value (coerce (list #\Space #\Newline #\Return #\Tab #\Page +mark+
+                                                 +separator+ (code-char 0) (code-char #xfffd))
+                                           'simple-string))))
+
+(defun line-notation (characters place end)
+  "Return :JSON or :LISP if what begins at PLACE of CHARACTERS is a box in it, or NIL."
+  (flet ((next (place)
+           (position-if-not #'blank-before-box-p characters :start (min end (1+ place)) :end end)))
+    (let ((second (next place)))
+      (when second
+        (case (schar characters place)
+          (#\{ (and (find (schar characters second) "\"}") :json))
+          (#\[ (and (find (schar characters second) "{]") :json))
+          (#\' (and (char= (schar characters second) #\() :lisp))
+          (#\( (and (or (char= (schar characters second) #\()
+                        (eql (string-lessp "SETQ" characters :start2 second :end2 end) 4))
+                    :lisp)))))))
+
+(defun first-notation (characters start end)
+  "Return the notation of the first line of CHARACTERS between START and END that begins a box, so that
+a comment or a line of a log does not matter; or NIL."
+  (loop for place = (position-if-not #'blank-before-box-p characters :start start :end end)
+        while place
+        thereis (line-notation characters place end)
+        do (setf start (or (position #\Newline characters :start place :end end) end))))
+
+(defun told-notation (input source)
+  "Return the notation of what SOURCE, which reads INPUT, holds: :LISP or :JSON."
+  (let ((first (skip-to-json source)))
+    ;; What SOURCE did not take yet is looked at first.
+    (setf (input-place input) (source-position source)
+          (source-end source) (source-position source))
+    (loop
+      (let ((told (first-notation (input-characters input) (input-place input) (input-end input))))
+        (when (or told
+                  (>= (- (input-end input) (input-place input)) 65536)
+                  (not (more-characters input)))
+          (return (or told (if (member first '(#\{ #\[)) :json :lisp))))))))
 
 ;;; Pieces
 
@@ -131,7 +161,7 @@ end."
   "True if the line at the place of INPUT starts a record: with (( or (SETQ, in JSON with {.
 The second value is true if more characters are needed to tell."
   (let ((characters (input-characters input))
-        (place (input-place input))
+        (place (after-mark input (input-place input)))
         (end (input-end input)))
     (flet ((begins (prefix)
              (let ((count (min (length prefix) (- end place))))
@@ -143,6 +173,14 @@ The second value is true if more characters are needed to tell."
                        (:lisp (list (begins "((") (begins "(SETQ"))))))
         (values (and (member :yes answers) t)
                 (and (member :maybe answers) t))))))
+
+(defun after-mark (input place)
+  "Return PLACE, or the one after it if a mark or a separator stands there."
+  (if (and (< place (input-end input))
+           (find (schar (input-characters input) place)
+                 (load-time-value (coerce (list +mark+ +separator+) 'simple-string))))
+      (1+ place)
+      place))
 
 (defun record-starts-p (input)
   "True if the line at the place of INPUT starts a record; gets more characters if it must."
@@ -163,7 +201,8 @@ record (as long as the notation is not known, any may), or where the characters 
           do (when (and (char= (schar characters place) #\Newline)
                         (or (null first)
                             (= (1+ place) end)
-                            (char= (schar characters (1+ place)) first)))
+                            (char= (schar characters (1+ place)) first)
+                            (/= (1+ place) (after-mark input (1+ place)))))
                (return (1+ place)))
           finally (return end))))
 

@@ -33,10 +33,7 @@ array and VALUE is none."
 
 (defun json-text (value)
   "Return VALUE, a part of a description in JSON, as JSON, cut after some 200 characters."
-  (let ((text (with-output-to-string (out) (write-json-value value out 0))))
-    (if (> (length text) 200)
-        (concatenate 'string (subseq text 0 197) "...")
-        text)))
+  (cut-text (with-output-to-string (out) (write-json-value value out 0))))
 
 (defun json-clause-text (key values)
   "Return the member of KEY, a keyword, with what JSON-VALUES made of its value, as JSON."
@@ -48,7 +45,13 @@ array and VALUE is none."
 
 (defun write-json-value (value stream depth)
   "Write VALUE as JSON; of a long or deep one only the beginning."
-  (flet ((members (open list close writer)
+  (flet ((text (string)
+           (write-char #\" stream)
+           (loop for character across (visible-text (subseq string 0 (min 201 (length string))))
+                 do (when (find character "\"\\") (write-char #\\ stream))
+                    (write-char character stream))
+           (write-char #\" stream))
+         (members (open list close writer)
            (write-string open stream)
            (loop for (element . rest) on list
                  repeat 100
@@ -62,9 +65,10 @@ array and VALUE is none."
           ((json-object-p value)
            (members "{" (json-object-members value) "}"
                     (lambda (member)
-                      (format stream "\"~a\": " (car member))
+                      (text (car member))
+                      (write-string ": " stream)
                       (write-json-value (cdr member) stream (1+ depth)))))
           ((json-literal-p value) (write-string (json-literal-text value) stream))
-          ((stringp value) (format stream "\"~a\"" value))
-          ((symbolp value) (format stream "\"~a\"" (symbol-name value)))
+          ((stringp value) (text value))
+          ((symbolp value) (text (symbol-name value)))
           (t (write-string (form-text value) stream)))))

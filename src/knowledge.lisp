@@ -90,10 +90,12 @@ What is wrong is left out."
 
 (defun check-tried (graspbase rule-forms)
   "Warn of grasps that no rule tries."
-  (let ((tried (loop for form in rule-forms
-                     when (part-p form "RULE") append (tried-names form))))
+  (let ((tried (make-hash-table :test #'equal)))
+    (dolist (form rule-forms)
+      (when (part-p form "RULE")
+        (dolist (name (tried-names form)) (setf (gethash name tried) t))))
     (dolist (grasp (graspbase-grasps graspbase))
-      (unless (member (grasp-name grasp) tried :test #'string=)
+      (unless (gethash (grasp-name grasp) tried)
         (let ((*subject* (format nil "GRASP ~a" (grasp-name grasp))))
           (complain (grasp-form grasp) '(:warning "no rule tries it")))))))
 
@@ -105,7 +107,9 @@ What is wrong is left out."
 (defun keep-shipped-files ()
   "Keep the shipped rules and grasps in the image."
   (setf *kept-files* (loop for name in '("rules.lisp" "grasps.lisp")
-                           collect (read-data-file (shipped-file name)))))
+                           for file = (read-data-file (shipped-file name))
+                           do (setf (data-file-path file) nil)
+                           collect file)))
 
 (defparameter *home* (asdf:system-source-directory "supergrip")
   "The directory of SUPER-GRIP, as it was loaded: later ASDF might find another.")
@@ -115,29 +119,49 @@ What is wrong is left out."
   (or (find name *kept-files* :key #'data-file-name :test #'string=)
       (merge-pathnames name *home*)))
 
-(defun read-data-file (file)
-  "Return the data file of FILE, a path, or FILE itself if it is one; what prevents its being read
-is among its problems."
-  (if (data-file-p file) file (read-path file)))
+(defun data-file-of (file)
+  "Return the data file, not read yet, that FILE, a path, is at this moment; or FILE itself if it is
+one.  Its name in reports is FILE as it was given, but a shipped file goes by its own name."
+  (if (data-file-p file)
+      file
+      (let ((path (native-path file)))
+        (make-data-file :path (uiop:ensure-absolute-pathname (merge-pathnames path) #'uiop:getcwd)
+                        :name (cond ((stringp file) file)
+                                    ((equal path (shipped-file (file-namestring path)))
+                                     (file-namestring path))
+                                    (t (native-name path)))))))
 
-(defun read-path (file)
-  (let* ((path (native-path file))
-         (name (if (stringp file) file (file-namestring path))))
+(defun read-data-file (file)
+  "Return the data file of FILE, a path or a data file, read anew if it has a path; what prevents its
+being read is among its problems."
+  (let* ((file (data-file-of file)) (path (data-file-path file)) (name (data-file-name file)))
     (flet ((unusable (problems)
              (make-data-file :path path :name name :problems problems)))
       (handler-case
-          (with-open-file (in path :external-format '(:utf-8 :replacement #\ufffd))
-            (when (eql (peek-char nil in nil) #\ufeff) ; a byte order mark
-              (read-char in))
-            (multiple-value-bind (forms lines comments) (read-all (stream-source in :name name))
-              (make-data-file :path path :name name :forms forms :lines lines
-                              :comments comments)))
+          (if path
+              (multiple-value-bind (forms lines comments)
+                  (read-all (file-source (file-text (native-name path)) name))
+                (make-data-file :path path :name name :forms forms :lines lines
+                                :comments comments))
+              file)
         (syntax-error (condition)
           (unusable (input-error-problems condition)))
-        (file-error ()
-          (unusable (list (make-problem :file name :text "this file can't be opened"))))
-        (stream-error ()
-          (unusable (list (make-problem :file name :text "this file can't be read"))))))))
+        (system-failure (condition)
+          (unusable (list (make-problem :file name
+                                        :text (format nil "this file ~a" condition)))))))))
+
+(defun file-source (text name)
+  "Return a source that reads TEXT, that of the file NAME.  Signals a SYNTAX-ERROR if it can't be read."
+  (flet ((refuse (control &rest arguments)
+           (error 'syntax-error
+                  :problems (list (make-problem :file name
+                                                :text (apply #'plain-text control arguments))))))
+    (cond ((utf-16-p text 0 (length text))
+           (refuse "this file is UTF-16; UTF-8 is read, which iconv -f UTF-16 -t UTF-8 makes of it"))
+          ((> (length text) (room-for (length text)))
+           (refuse "this file is longer than ~d characters, for which the heap has room; ~
+                    --dynamic-space-size makes it larger" (room-for (length text))))
+          (t (string-source text :name name)))))
 
 (defun accept-knowledge (make)
   "Return the knowledge that MAKE, a function that returns it and a list of problems, makes.
@@ -166,7 +190,8 @@ calls READ again, and CONTINUE, which goes on without the rules and grasps that 
 Signals one KNOWLEDGE-ERROR that holds all that is wrong with them; restarts: RETRY reads the files
 again, CONTINUE leaves out the rules and grasps that are wrong.  What is valid but can't be meant is
 a KNOWLEDGE-WARNING."
-  (accept-files (lambda () (build-knowledge (read-data-file rules) (read-data-file grasps)))))
+  (let ((rules (data-file-of rules)) (grasps (data-file-of grasps)))
+    (accept-files (lambda () (build-knowledge (read-data-file rules) (read-data-file grasps))))))
 
 (defvar *knowledge* (load-knowledge)
   "The rules and grasps that plans use if no others are given.")

@@ -21,7 +21,8 @@ record a box to standard output, in the same order: the best of seven grasps for
                             needs cl-who (docs/pictures.md), and keeps all plans till the end
   --check                   only read the rules and grasps, and say what is wrong with them
   --depth-limit N           how deep lists may nest; 32 by default, 1000 at most
-  --record-limit N          the most characters of one box; 65536 by default, 1000000 at most
+  --record-limit N          the most characters of one box; 65536 by default, 1000000 at most, and
+                            fewer if the heap (--dynamic-space-size) has no room for them
   --number-limit N          the most characters of one number; 40 by default, 1000 at most
   --name-limit N            the most characters of one name; 64 by default, 1000 at most
   --help                    print this, and end
@@ -137,7 +138,7 @@ of REST, the arguments after it."
 (defun tell (control &rest arguments)
   "Write a line to standard error, if that can be done."
   (let ((output (make-output 2)))
-    (handler-case (progn (put-text output (apply #'format nil control arguments))
+    (handler-case (progn (put-visible output (apply #'format nil control arguments))
                          (put-octet output 10)
                          (flush-output output))
       (system-failure () nil))))
@@ -322,7 +323,7 @@ report of what could not be drawn or written."
                                     (getf options :input) (getf options :format)
                                     (make-output 1)))
                  (*depth-limit* (getf options :depth-limit *depth-limit*))
-                 (*record-limit* (getf options :record-limit *record-limit*))
+                 (*record-limit* (room-for (getf options :record-limit *record-limit*)))
                  (*number-limit* (getf options :number-limit *number-limit*))
                  (*name-limit* (getf options :name-limit *name-limit*)))
              (when (terminal-p 2)

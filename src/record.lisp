@@ -82,13 +82,20 @@
               (when rest (put-octet output 32)))
      (put-octet output 41))))
 
+(declaim (inline control-code-p))
+(defun control-code-p (code)
+  "True if CODE, above 31, is that of a character that a terminal obeys or that ends a line."
+  (and (> code 126) (or (< code 160) (= code #x2028) (= code #x2029))))
+
 (defun put-lisp-string (text output)
   "Put TEXT between double quotes.  Lisp has no escapes for control characters, and a record is one
-line: they become their pictures, as U+240A for a newline."
+line: they become their pictures, as U+240A for a newline, or their names, as <U+0085>."
   (put-octet output 34)
   (loop for character across (the string text)
         for code = (char-code character)
         do (cond ((< code 32) (put-code output (+ #x2400 code)))
+                 ((= code 127) (put-code output #x2421))
+                 ((< 127 code 160) (put-text output (format nil "<~a>" (code-text character))))
                  (t (when (or (= code 34) (= code 92)) (put-octet output 92))
                     (put-character output character))))
   (put-octet output 34))
@@ -136,7 +143,8 @@ list an array, NIL null."
   (put-octet output 34)
   (loop for character across (the string text)
         for code = (char-code character)
-        do (cond ((< code 32) (put-text output (format nil "\\u~4,'0x" code)))
+        do (cond ((or (< code 32) (control-code-p code))
+                  (put-text output (format nil "\\u~4,'0x" code)))
                  (t (when (or (= code 34) (= code 92)) (put-octet output 92))
                     (put-character output character))))
   (put-octet output 34))

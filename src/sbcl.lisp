@@ -210,6 +210,37 @@ can be opened once."
 (defun close-descriptor (descriptor)
   (sb-unix:unix-close descriptor))
 
+(defun file-text (file)
+  "Return the text of FILE, a string, or its beginning if it is far too long for the heap.  Octets that
+are not UTF-8 become U+FFFD.  Signals a READ-FAILURE."
+  (let ((descriptor (open-descriptor file))
+        (octets (make-array 65536 :element-type '(unsigned-byte 8)))
+        (end 0))
+    (unwind-protect
+         (loop for new = (read-octets descriptor octets end)
+               until (= new end)
+               do (setf end new)
+                  (when (> end (room-for end))
+                    (return))
+                  (when (= end (length octets))
+                    (setf octets (replace (make-array (* 2 end) :element-type '(unsigned-byte 8))
+                                          octets))))
+      (close-descriptor descriptor))
+    (coerce (sb-ext:octets-to-string octets :end end
+                                            :external-format '(:utf-8 :replacement #\ufffd))
+            '(simple-array character (*)))))
+
+(defconstant +octets-of-character+ 150
+  "How much of the heap a character of a record or a file takes at most until it is worked off, what
+copies it when garbage is collected included.")
+
+(defun room-for (count)
+  "Return COUNT, or how many characters the heap has room for if they are fewer."
+  (flet ((most ()
+           (floor (- (sb-ext:dynamic-space-size) (sb-kernel:dynamic-usage)) +octets-of-character+)))
+    (when (> count (most)) (sb-ext:gc :full t))
+    (min count (most))))
+
 (defun terminal-p (descriptor)
   "True if DESCRIPTOR is a terminal."
   (plusp (sb-unix:unix-isatty descriptor)))

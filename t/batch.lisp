@@ -170,6 +170,94 @@
              (is (= 1 (length records)))
              (is (search report (getf (first records) :reason)) "~a~%~a" report records))))
 
+(defun problem-places (record)
+  "Return the line, the column and the beginning of the text of each problem of RECORD."
+  (loop for problem in (getf record :problems)
+        collect (list (getf problem :line) (getf problem :column)
+                      (subseq (getf problem :text) 0 (min 20 (length (getf problem :text)))))))
+
+(test every-mistake-in-a-box-has-its-place
+  (is (equal '((3 11 "(WEIGHT -1) is not v") (4 18 "Q is no surface of a")
+               (4 20 "X9 is no surface of ") (5 22 "(FORCE-NEEDED (1 1 2")
+               (2 3 "VELOCITY-NEEDED is m") (5 32 "the box ends here; i"))
+             (problem-places (first (answers "(SETQ BOX
+ '((SIZE 1 2 3) (u 1)
+  (WEIGHT -1) (v 1)
+ (CONSTRAINED Z2 Q X9)
+  (FORCE-NEEDED (1 1 2 1 1 1))))")))))
+  (is (equal '((2 12 "\"weight\": -1 is not ") (3 24 "\"Q\" is no surface of") (3 29 "\"X9\" is no surface o")
+               (4 26 "\"force_needed\": [1, ") (1 2 "\"velocity_needed\" is") (4 37 "the box ends here; i"))
+             (problem-places (first (answers "[{\"size\": [1, 2, 3], \"u\": 1,
+ \"weight\": -1, \"v\": 1,
+ \"constrained\": [\"Z2\", \"Q\", \"X9\"],
+  \"force_needed\": [1, 1, 2, 1, 1, 1]}]"))))))
+
+(test a-parenthesis-too-many-gives-one-record
+  (loop for (text old new) in
+        `((,*pencil* "12 2 2)" "12 2 2))") (,(one-line *pencil*) "12 2 2)" "12 2 2))")
+          (,*pencil* "(0.8)" "(0.8))") (,*pencil* "X1)" "X1))") (,*pencil* "1 1))" "1 1)))")
+          (,*pencil* "((SIZE" "(SIZE") (,*pencil* "(1 0.8" "(1) 0.8")
+          (,(format nil "(SETQ BOX '~a)" *pencil*) "12 2 2)" "12 2 2))")
+          (,*json-pencil* "2]" "2]}") (,(one-line *json-pencil*) "2]" "2]}")
+          (,*json-pencil* "\"X1\"]," "\"X1\"]},")
+          (,(format nil "[~a, ~a" *json-pencil* *json-pencil*) "2]" "2]}"))
+        do (let ((statuses (statuses (answers (list (if (search old text) (changed text old new) text)
+                                                    (if (char= (char text 0) #\[) "]" "")
+                                                    (format nil "~%")
+                                                    (if (find (char text 0) "{[")
+                                                        *json-pencil*
+                                                        *pencil*))))))
+             (when (search old text)
+               (is (equal "grasp" (first (last statuses))))
+               (is (= (if (char= (char text 0) #\[) 3 2) (length statuses)) "~a: ~s" text statuses)))))
+
+(test a-box-tells-some-of-its-problems
+  (dolist (text (list (format nil "(~{(K~d 1)~})" (loop for i below 500 collect i))
+                      (format nil "{~{\"k~d\": 1~^,~}}" (loop for i below 500 collect i))))
+    (let ((problems (getf (first (answers text)) :problems)))
+      (is (= 21 (length problems)))
+      (is (equal "and 488 more problems" (getf (first (last problems)) :text))))))
+
+(test what-stands-around-boxes-costs-itself-only
+  (flet ((octets-in (text format &rest before)
+           (concatenate '(vector (unsigned-byte 8)) before
+                        (sb-ext:string-to-octets text :external-format format))))
+    (let ((mark #(239 187 191)) (line (format nil "~%")))
+      (loop for (name text . expected) in
+            `(("marks" (,mark ,*pencil* ,line ,mark ,*pencil*) "grasp" "grasp")
+              ("marks in JSON" (,mark ,*json-pencil* ,line ,mark ,*json-pencil*) "grasp" "grasp")
+              ("a mark after an open record" ("((SIZE 1" ,line ,mark ,*pencil*) "line 1" "grasp")
+              ("a text sequence" (#(30) ,*json-pencil* ,line #(30) ,*json-pencil* #(30)) "grasp" "grasp")
+              ("a sequence with a part" (#(30) "{\"size\": [1" #(30) ,*json-pencil*) "line 1" "grasp")
+              ("a comment" ("# boxes" ,line ,*json-pencil*) "line 1, column 1: #" "grasp")
+              ("a comment of Lisp" ("; boxes" ,line ,*json-pencil*) "line 1, column 1: ;" "grasp")
+              ("a line of a log" ("12:00 started" ,line ,*json-pencil*) "line 1" "grasp")
+              ("a log in brackets" ("[INFO] started" ,line ,*json-pencil*) "line 1" "line 1" "grasp")
+              ("a log before lists" ("[12:00] started" ,line ,*pencil*) "line 1" "grasp")
+              ("UTF-16" (,(octets-in *json-pencil* :utf-16le 255 254)) "line 1, column 1: this is UTF-16")
+              ("UTF-16, then UTF-8" (,(octets-in (format nil "~a~%" *pencil*) :utf-16be) ,*pencil*)
+               "line 1, column 1: this is UTF-16" "grasp")
+              ("no UTF-16" (#(255 254) ,line ,*pencil*) "line 1, column 1: what is not UTF-8" "grasp")
+              ("no name" (,(changed *json-pencil* "{" "{\"name\": null, ")) "grasp")
+              ("no name in Lisp" (,(changed *pencil* "(" "((NAME NIL) ")) "grasp"))
+            do (let ((statuses (statuses (answers text))))
+                 (is (= (length expected) (length statuses)) "~a: ~s" name statuses)
+                 (is (every (lambda (expected status) (eql 0 (search expected status)))
+                            expected statuses)
+                     "~a: ~s" name statuses))))))
+
+(test terminals-have-nothing-to-obey
+  (loop for format in '("json" "sexp" "trace")
+        do (let* ((text (list "((NAME \"a" #(27 91 194 133 127 194 155) "\") (SIZE \"" #(27 194 155)
+                              "\"))"))
+                  (output (nth-value 1 (run-on text (list (program) "--format" format)))))
+             (is (notany (lambda (character)
+                           (and (char/= character #\Newline)
+                                (or (< (char-code character) 32)
+                                    (< 126 (char-code character) 160))))
+                         output)
+                 format))))
+
 (test the-name-of-a-bad-box-is-in-its-record
   (dolist (text '("((NAME \"bad\") (SIZE 1))" "{\"name\": \"bad\", \"size\": 1}"))
     (is (equal "bad" (getf (first (answers text)) :name)))))
@@ -198,7 +286,7 @@
       ("UTF-8 in a name" ,(with "(u" "(NAME \"käse 😀\") (u") :planned)
       ("CRLF" ,(format nil "~a~c~%" (with "0.8" "0.8") #\Return) :planned)
       ("no final newline" ,(with "0.8" "0.8") :planned)
-      ("NUL" ,(with "0.8" (format nil "0.8~c" (code-char 0))) "character 0 can't stand")
+      ("NUL" ,(with "0.8" (format nil "0.8~c" (code-char 0))) "U+0000 (is this UTF-16?) can't stand")
       ("NUL in a name" ,(with "(u" (format nil "(NAME \"a~cb\") (u" (code-char 0))) :planned)
       ("invalid UTF-8" (,(with "(u" "(NAME \"a") #(255 192 128 237 160 128) "\") (u 1)") :any)
       ("invalid UTF-8 in a name" ("((NAME \"a" #(255 192 128 237 160 128 240 159) "z\")"
@@ -248,7 +336,7 @@
             ("a newline in a name" ,(with "{" "{\"name\": \"a\\nb\", ") :planned)
             ("NUL in a name" ,(with "{" "{\"name\": \"a\\u0000b\", ") :planned)
             ("NUL itself in a name" ,(with "{" (format nil "{\"name\": \"~c\", " (code-char 0)))
-             "character 0 must be written as \\u0000")
+             "U+0000 must be written as \\u0000")
             ("half a character" ,(with "{" "{\"name\": \"\\ud800\", ") :planned)
             ("invalid UTF-8 in a name" ("{\"name\": \"" #(255 254) "\", "
                                         ,(subseq (one-line *json-pencil*) 1))
@@ -277,6 +365,26 @@
                                    echo $(wc -l < \"$2\") $(grep -c :LINE \"$2\")"
                                   (program) (one-line *pencil*)
                                   (format nil "~a.out" (program)))))))))
+
+(test no-input-reaches-the-end-of-the-heap
+  (flet ((long (start part end)
+           (format nil "~a~a~a~%" start (repeated (floor 3000000 (length part)) part) end)))
+    (loop for (notation text good) in
+          `(("sexp" ,(long "((NAME " "'()" "") ,(one-line *pencil*))
+            ("sexp" ,(long "((a" ")" "") ,(one-line *pencil*))
+            ("sexp" ,(long "(" "(a)" ")") ,(one-line *pencil*))
+            ("sexp" ,(long "(" "a " ")") ,(one-line *pencil*))
+            ("json" ,(long "{\"size\": [" "[]," "1]}") ,(one-line *json-pencil*))
+            ("json" ,(long "{" "{}[]," "}") ,(one-line *json-pencil*)))
+          do (dolist (limit '("65536" "1000000"))
+               (multiple-value-bind (status output)
+                   (run-on (list text good) (list (program) "--dynamic-space-size" "64MB" "--format" "json"
+                                                  "--input" notation "--record-limit" limit))
+                 (let ((records (mapcar #'json-record (lines-of output))))
+                   (is (eql 65 status))
+                   (is (equal '("error" "grasp")
+                              (mapcar (lambda (record) (getf record :status)) records))
+                       "~a ~a" (subseq text 0 20) limit)))))))
 
 ;;; The same plan everywhere
 

@@ -38,6 +38,7 @@
           (,(cons :size *good-box*) "BOX: SIZE is not a part of a box description: its parts are lists as (SIZE 12 2 2)")
           (,(changed-box :constrained :z3) "BOX: Z3 is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
           (,(changed-box :constrained '(:z2)) "BOX: (Z2) is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
+          (,(changed-box :constrained :z2 :q :x9) "BOX: Q is no surface of a box")
           (,(changed-box :constrained :z2 :z2) "BOX: Z2 is constrained twice")
           (,(remove :constrained *good-box* :key #'first) "BOX: CONSTRAINED is missing")
           (,(cons '(:name pencil) *good-box*) "BOX: (NAME PENCIL) is not valid: NAME takes one string: (NAME \"pencil\")")
@@ -48,6 +49,7 @@
              (is (eql 0 (search report (or (first reports) ""))) "~s~%gave ~s" form reports))))
 
 (test all-mistakes-in-a-box-come-at-once
+  (is (= 3 (length (box-reports (changed-box :constrained :z2 :q :x9 :z2)))))
   (is (= 4 (length (box-reports '((size 1 1) (weight -1) (u 1) (v 1) (constrained q)
                                   (force-needed (2 2 2 2 2 2))
                                   (velocity-needed (0 0 0 0 0 1))))))))
@@ -62,6 +64,8 @@
                         '((size 12 2 2) (weight 0.2) (u 0.8) (v 0.2) (constrained x1 z2)
                           (force-needed (1 0.8 0.8 0.3 1 1)) (velocity-needed (0 0.8 0.8 0 0.8 0.8)))))
       (is (equalp box (supergrip:parse-box form)) "~s" form)))
+  (dolist (name '(nil :nil))
+    (is (null (supergrip:box-name (supergrip:parse-box (cons (list :name name) *good-box*))))))
   (is (equal "a box" (supergrip:box-name (supergrip:parse-box (cons '(name "a box") *good-box*)))))
   (is (zerop (supergrip:box-weight (supergrip:parse-box (changed-box :weight 0)))))
   (is (zerop (supergrip:box-friction (supergrip:parse-box (changed-box :u 0)))))
@@ -193,7 +197,7 @@
         (supergrip:knowledge-error (condition)
           (is (= 2 (length (supergrip-data:errors-in
                           (supergrip:input-error-problems condition)))))
-          (is (search (format nil "~a:2: RULE B, clause 1:" (file-namestring rules))
+          (is (search (format nil "~a:2: RULE B, clause 1:" (uiop:native-namestring rules))
                       (princ-to-string condition)))))
       (is (eq before supergrip:*knowledge*)))
     (let ((knowledge (handler-bind ((supergrip:knowledge-error #'continue))
@@ -215,14 +219,47 @@
       (is (= 1 tries)))))
 
 (test a-file-that-is-not-there-is-named
-  (is (equal '("/tmp/no-such-rules.lisp: this file can't be opened")
-             (problem-texts (lambda () (supergrip:load-knowledge :rules "/tmp/no-such-rules.lisp"))))))
+  (loop for (file report) in
+        '(("/no/such/rules.lisp" "can't be opened: No such file or directory")
+          ("no-such-[1]*.lisp" "can't be opened: No such file or directory")
+          (#p"/no/such/rules.lisp" "can't be opened: No such file or directory")
+          ("/" "can't be opened: Is a directory"))
+        do (is (equal (list (format nil "~a: this file ~a" file report))
+                      (problem-texts (lambda () (supergrip:load-knowledge :rules file)))))))
+
+(test a-relative-path-means-one-file
+  (let ((directory (uiop:ensure-directory-pathname
+                    (format nil "~asupergrip-~36r" (uiop:native-namestring (uiop:temporary-directory))
+                            (random (expt 36 8) (make-random-state t))))))
+    (ensure-directories-exist (merge-pathnames "k1/" directory))
+    (unwind-protect
+         (let ((supergrip:*knowledge* supergrip:*knowledge*))
+           (flet ((put (rule)
+                    (with-open-file (out (merge-pathnames "k1/r.lisp" directory)
+                                         :direction :output :if-exists :supersede)
+                      (format out "(RULE ~a (IF (SLIPPERY)) (THEN (CANT X)))" rule)))
+                  (names ()
+                    (mapcar #'supergrip-chainer:rule-name
+                            (supergrip:knowledge-rules supergrip:*knowledge*))))
+             (without-warnings
+               (put "A")
+               (let ((*default-pathname-defaults* directory))
+                 (supergrip:reload-knowledge :rules "k1/r.lisp"))
+               (is (equal '("A") (names)))
+               (put "B")
+               (supergrip:reload-knowledge)
+               (is (equal '("B") (names)) "the same file, from another directory"))
+             (put "B)")
+             (is (eql 0 (search "k1/r.lisp:1:"
+                                (first (problem-texts #'supergrip:reload-knowledge)))))))
+      (uiop:delete-directory-tree directory :validate t))))
 
 (test a-spoiled-file-names-line-and-column
   (uiop:with-temporary-file (:stream out :pathname file :keep nil)
     (format out "(SETQ GRIPPER '(FINGER-LENGTH 3)))~%")
     :close-stream
-    (is (equal (list (format nil "~a:1:34: a closing parenthesis too many" (file-namestring file)))
+    (is (equal (list (format nil "~a:1:34: a closing parenthesis too many"
+                             (uiop:native-namestring file)))
                (problem-texts (lambda () (supergrip:load-knowledge :grasps file)))))))
 
 (test arithmetic-in-a-form-rejects-the-candidate

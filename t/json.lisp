@@ -38,11 +38,12 @@
         '(("" "a value is missing at the end")
           ("[1" "1:1: this array is never closed")
           ("{\"a\":1" "1:1: this object is never closed")
+          ("{\"a\":" "1:2: the key \"a\" has no value")
           ("\"a" "1:1: this string is never closed")
           ("[1,]" "1:4: ] can't stand here")
           ("[1 2]" "1:4: 2 stands where a comma or ] should")
           ("{a:1}" "1:2: a stands where a key in double quotes should")
-          ("{\"a\" 1}" "1:6: the key \"a\" is not followed by a colon")
+          ("{\"a\" 1}" "1:2: the key \"a\" is not followed by a colon")
           ("{\"a\":1,}" "1:8: } stands where a key in double quotes should")
           ("01" "01 is not JSON") ("1." "1. is not JSON") (".5" ".5 is not JSON")
           ("+1" "+1 is not JSON") ("1e" "1e is not JSON") ("NaN" "NaN is not JSON")
@@ -52,7 +53,7 @@
           ("1e999" "1e999 is out of range") ("1e-999" "1e-999 is out of range"))
         do (is (or (equal text "1/2") (search report (or (json-failure text) "")))
                "~a: ~a" text (json-failure text)))
-  (is (search "character 10 must be written as \\u000A"
+  (is (search "U+000A must be written as \\u000A"
               (json-failure (format nil "\"a~%b\"")))))
 
 (test json-keeps-the-limits
@@ -60,5 +61,10 @@
     (is (search "nest deeper than 32" (json-failure (repeat 100000 "["))))
     (is (search "nest deeper than 32" (json-failure (repeat 100000 "{\"a\":"))))
     (is (search "a number of 41 characters" (json-failure (repeat 41 "1"))))
+    (is (equal "1:2: a name of 65 characters; at most 64 are read"
+               (json-failure (format nil "{\"~a\": 1}" (repeat 65 "a")))))
+    (dolist (text '("[]," "{}," "\"\"," "1,"))
+      (is (search "longer than 65536 characters" (json-failure (format nil "[~a1]" (repeat 40000 text))))
+          text))
     (is (search "longer than 65536 characters"
                 (json-failure (format nil "\"~a\"" (repeat 70000 "a")))))))

@@ -263,6 +263,22 @@
   (loop for (file from to . reports) in *spoiled*
         do (is (equal reports (spoiled-reports file from to)) "~s for ~s" to from)))
 
+(test rules-and-grasps-have-limits
+  (flet ((reports (rules grasps)
+           (mapcar #'princ-to-string
+                   (supergrip-data:errors-in (nth-value 1 (text-knowledge rules grasps)))))
+         (repeat (count text) (format nil "~v@{~a ~:*~}" count text)))
+    (is (equal '("rules.lisp:1: RULE R: more than 500 clauses or actions")
+               (reports (format nil "(RULE R (IF ~a) (THEN (KEEP BEST)))" (repeat 501 "(SLIPPERY)"))
+                        *good-grasps*)))
+    (is (equal '("grasps.lisp:6: GRASP G, CONTACTS: CONTACTS lists more than 50 contacts")
+               (reports *good-rules*
+                        (replace-once *good-grasps* "((N1 0 0)" (format nil "(~a" (repeat 51 "(N1 0 0)"))))))
+    (let ((reports (reports (format nil "(RULE R (IF ~a) (THEN (KEEP BEST)))" (repeat 400 "(SMALL)"))
+                            *good-grasps*)))
+      (is (= 21 (length reports)))
+      (is (equal "rules.lisp:1: RULE R: and 380 more problems" (first (last reports)))))))
+
 (test several-mistakes-are-all-reported
   (let ((reports (mapcar #'princ-to-string
                          (nth-value 1 (text-knowledge

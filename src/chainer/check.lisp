@@ -8,7 +8,7 @@
 
 (defstruct (use (:constructor make-use (rule name place words surfaces form negated)))
   "A sentence in a rule: the number and the NAME of the RULE, the PLACE in it (\"clause 2\"), its
-WORDS as strings, the texts of its SURFACES, sorted."
+WORDS and its SURFACES, sorted, each as one text."
   rule name place words surfaces form negated)
 
 (defun sentence-use (sentence form number name place)
@@ -21,8 +21,8 @@ WORDS as strings, the texts of its SURFACES, sorted."
          (negations (count-if (lambda (word) (or (name= word "NO") (name= word "NOT"))) names)))
     (and words
          (notany #'loose-surface-p names)
-         (make-use number name place words
-                   (sort (mapcar #'form-text list) #'string<)
+         (make-use number name place (words-text words)
+                   (words-text (sort (mapcar #'form-text list) #'string<))
                    form (plusp negations)))))
 
 (defun rule-uses (form number)
@@ -60,7 +60,8 @@ WORDS as strings, the texts of its SURFACES, sorted."
 
 (defstruct (sources (:constructor make-sources (given derivers names)))
   "Where sentences come from: tables from the words of one to true if it is GIVEN, an input, and to
-the conclusions that are its DERIVERS, in order; and the NAMES of all, texts."
+the conclusions that are its DERIVERS, a list of the first and, in order, of all that CHECK-ORDER has
+not passed yet; and the NAMES of all."
   given derivers names)
 
 (defun collect-sources (conclusions inputs)
@@ -69,12 +70,13 @@ the conclusions that are its DERIVERS, in order; and the NAMES of all, texts."
         (derivers (make-hash-table :test #'equal))
         (names '()))
     (loop for (words) in inputs
-          do (setf (gethash words given) t)
+          do (setf (gethash (words-text words) given) t)
              (push (words-text words) names))
     (dolist (use (reverse conclusions))
       (push use (gethash (use-words use) derivers)))
-    (loop for words being the hash-keys of derivers
-          unless (gethash words given) do (push (words-text words) names))
+    (loop for words being the hash-keys of derivers using (hash-value uses)
+          do (setf (gethash words derivers) (cons (first uses) uses))
+             (unless (gethash words given) (push words names)))
     (make-sources given derivers (sort names #'string<))))
 
 (defun provided-p (words sources)
@@ -85,9 +87,6 @@ the conclusions that are its DERIVERS, in order; and the NAMES of all, texts."
          (*place* (use-place ,use)))
      ,@body))
 
-(defun words-text (words)
-  (format nil "~{~a~^ ~}" words))
-
 (defun check-provided (test sources)
   "Warn if nothing provides what TEST tests.  Returns true if so."
   (unless (provided-p (use-words test) sources)
@@ -95,38 +94,43 @@ the conclusions that are its DERIVERS, in order; and the NAMES of all, texts."
       (complain (use-form test)
                 '(:warning "nothing provides ~a~a, so ~:[the rule can never fire~;this always ~
                             holds~]")
-                (words-text (use-words test))
-                (suggestion (words-text (use-words test)) (sources-names sources))
+                (use-words test)
+                (suggestion (use-words test) (sources-names sources))
                 (use-negated test)))
     t))
 
 (defun check-order (test sources)
-  "Warn if TEST comes before a rule that derives what it tests."
+  "Warn if TEST comes before a rule that derives what it tests.  Tests are checked in order."
   (let* ((derivers (gethash (use-words test) (sources-derivers sources)))
-         (later (find-if (lambda (use) (> (use-rule use) (use-rule test))) derivers)))
+         (later (first (loop while (and (rest derivers)
+                                        (<= (use-rule (second derivers)) (use-rule test)))
+                             do (pop (rest derivers))
+                             finally (return (rest derivers))))))
     (when later
       (about-use (test)
         (complain (use-form test)
                   '(:warning "~:[~;the absence of ~]~a is tested here, but ~:[~;also ~]RULE ~a, ~
                               which derives it, comes later; rules run in order, each once")
-                  (use-negated test) (words-text (use-words test))
+                  (use-negated test) (use-words test)
                   (or (gethash (use-words test) (sources-given sources))
                       (< (use-rule (first derivers)) (use-rule test)))
                   (use-name later))))))
 
 (defun check-contradiction (tests)
   "Warn if TESTS, those of one rule, hold a sentence and its negation."
-  (loop for (test . others) on tests
-        do (let ((contrary (find-if (lambda (other)
-                                      (and (equal (use-words test) (use-words other))
-                                           (equal (use-surfaces test) (use-surfaces other))
-                                           (not (eq (use-negated test) (use-negated other)))))
-                                    others)))
-             (when contrary
-               (about-use (contrary)
-                 (complain (use-form contrary)
-                           '(:warning "this contradicts ~a, so the rule can never fire")
-                           (use-place test)))))))
+  (let ((firsts (make-hash-table :test #'equal)))
+    (flet ((key (test negated)
+             (format nil "~:[~;NOT ~]~a (~a)" negated (use-words test) (use-surfaces test))))
+      (dolist (test tests)
+        (let ((contrary (gethash (key test (not (use-negated test))) firsts))
+              (own (key test (use-negated test))))
+          (when contrary
+            (about-use (test)
+              (complain (use-form test)
+                        '(:warning "this contradicts ~a, so the rule can never fire")
+                        (use-place contrary))))
+          (unless (gethash own firsts)
+            (setf (gethash own firsts) test)))))))
 
 (defun check-contradictions (tests)
   "Warn if TESTS hold a sentence and its negation in one rule."
@@ -152,12 +156,11 @@ INPUTS are the predicates that the input provides, as in BUILD-RULEBASE."
     (dolist (test tests)
       (when (provided-p (use-words test) sources)
         (setf (gethash (use-words test) tested) t)))
-    (let ((texts (sort (loop for words being the hash-keys of tested collect (words-text words))
-                       #'string<)))
+    (let ((texts (sort (loop for words being the hash-keys of tested collect words) #'string<)))
       (dolist (conclusion conclusions)
         (unless (gethash (use-words conclusion) tested)
-          (let ((close (suggestion (words-text (use-words conclusion)) texts)))
+          (let ((close (suggestion (use-words conclusion) texts)))
             (unless (string= close "")
               (about-use (conclusion)
                 (complain (use-form conclusion) '(:warning "no rule tests ~a~a")
-                          (words-text (use-words conclusion)) close)))))))))
+                          (use-words conclusion) close)))))))))

@@ -50,7 +50,15 @@ CLIENT is what the actions of the lower level are compiled against."
 
 (defun find-predicate (rulebase words)
   "Return the predicate of RULEBASE that has WORDS, a list of strings, or NIL."
-  (gethash words (rulebase-table rulebase)))
+  (gethash (words-text words) (rulebase-table rulebase)))
+
+(defun words-text (words)
+  "Return WORDS, a list of strings, as one.  As a key it is hashed wholly; of a list only the first
+elements would be."
+  (with-output-to-string (out)
+    (loop for (word . rest) on words
+          do (write-string word out)
+             (when rest (write-char #\Space out)))))
 
 ;;; Terms: a variable is its number, 0 to 5; a face f is the number -1-f.
 
@@ -124,9 +132,10 @@ have yet are allowed if BIND is true.  Complains, and returns NIL and true, of a
 
 (defun intern-predicate (words arity form &key given)
   "Return the predicate of WORDS, made if it is new, with lists of ARITY surfaces."
-  (let ((predicate (gethash words (rulebase-table *rulebase*))))
+  (let* ((key (words-text words))
+         (predicate (gethash key (rulebase-table *rulebase*))))
     (cond ((null predicate)
-           (setf (gethash words (rulebase-table *rulebase*))
+           (setf (gethash key (rulebase-table *rulebase*))
                  (make-predicate :words words :arity arity :given given
                                  :index (hash-table-count (rulebase-table *rulebase*)))))
           ((/= arity (predicate-arity predicate))
@@ -275,6 +284,8 @@ which serves other runs, too; and it may be called again when a question about t
 
 ;;; Rules
 
+(defparameter *part-limit* 500 "The most clauses that a rule may have, and the most actions.")
+
 (defun parse-parts (parse forms label)
   "Return what PARSE makes of each of FORMS, the place in the reports being LABEL and a number."
   (loop for form in forms
@@ -290,8 +301,8 @@ NIL after a complaint."
          (*subject* (if name (format nil "RULE ~a" name) "RULE without a name"))
          (*place* nil)
          (*form* form)
-         (*rule* (make-rule :name (and name (symbol-name name)) :form form :file *file*
-                            :line (and *lines* (gethash form *lines*))
+         (*rule* (make-rule :name (and name (symbol-name name)) :form form :file (form-file form)
+                            :line (form-line form)
                             :comment (and *comments* (gethash form *comments*)))))
     (cond ((not (part-p form "RULE"))
            (let ((*subject* nil))
@@ -304,6 +315,8 @@ NIL after a complaint."
            (complain form "IF has no clause"))
           ((null (rest (fourth form)))
            (complain form "THEN has no action"))
+          ((or (nthcdr *part-limit* (rest (third form))) (nthcdr *part-limit* (rest (fourth form))))
+           (complain form "more than ~d clauses or actions" *part-limit*))
           (t
            (setf (rule-clauses *rule*) (parse-parts #'parse-clause (rest (third form)) "clause"))
            (let ((*clause-failed* (member nil (rule-clauses *rule*))))

@@ -82,40 +82,109 @@ goes on without the rules and grasps that are wrong."))
 
 (defvar *file* nil "The name of the file whose contents are being checked, or NIL.")
 (defvar *lines* nil "A table from each list read from that file to its line, or NIL.")
+(defvar *places* nil "Instead of *LINES*: a function that returns the line and the column of a form.")
 (defvar *comments* nil "A table from each outermost list of that file to the comment before it.")
 (defvar *subject* nil "What is being checked, for the reports: \"RULE GRIP1\".")
 (defvar *place* nil "Which part of it: \"clause 2\".")
 (defvar *form* nil "The innermost list being checked whose line is known.")
-(defvar *problems*)
-(defvar *noted* nil "A table of the problems noted, so that none is noted twice.")
 
-(defun line-of (form)
-  (and *lines* (or (gethash form *lines*) (gethash *form* *lines*))))
+(defparameter *problem-limit* 20
+  "How many problems of one rule, grasp or box are told; of the others only how many there are.")
+(defparameter *problems-limit* 1000 "How many problems of one file or box are told.")
 
-(defun complain (form control &rest arguments)
-  "Note an error in FORM, a list or a part of one, described by the format CONTROL and ARGUMENTS.
-A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL."
-  (let* ((severity (if (consp control) (first control) :error))
-         (control (if (consp control) (second control) control))
-         (parts (list severity *file* (line-of form) *subject* *place*
-                      (apply #'format nil control arguments))))
-    (unless (gethash parts *noted*)
-      (setf (gethash parts *noted*) t)
-      (destructuring-bind (severity file line subject place text) parts
-        (push (make-problem :severity severity :file file :line line :subject subject
-                            :place place :text text)
-              *problems*))))
-  nil)
+(defstruct tally
+  "How many problems of a subject were TOLD, how many only counted, UNTOLD, and the problem MORE that
+says so."
+  (told 0 :type fixnum) (untold 0 :type fixnum) (more nil))
+
+(defstruct report
+  "What was complained of.  PROBLEMS, the latest first; COUNT, how many were told; NOTED, a table of
+their texts, so that none is noted twice; TALLIES, one from subject to tally."
+  (problems '() :type list)
+  (count 0 :type fixnum)
+  (noted nil)
+  (tallies nil))
+
+(defvar *report*)
+(setf (documentation '*report* 'variable) "The report that COMPLAIN adds to.")
 
 (defvar *looks-left* nil
   "How many names SUGGESTION may still look at, NIL for any number.  Where thousands of names are
 unknown, they are no slips of the pen.")
 
+(defun form-line (form)
+  "Return the line of FORM, or of the list around it, if it was read from the file being checked."
+  (and *lines* (or (gethash form *lines*) (gethash *form* *lines*))))
+
+(defun form-file (form)
+  "Return the name of the file being checked, unless FORM is not from there."
+  (and (or (form-line form) (not (or form *form*)))
+       *file*))
+
+(defun form-place (form)
+  "Return the line and the column of FORM, as far as they are known."
+  (if *places*
+      (funcall *places* form)
+      (values (form-line form) nil)))
+
+(defmacro complain (form control &rest arguments)
+  "Note an error in FORM, a list or a part of one, described by the format CONTROL and ARGUMENTS.
+A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL.  ARGUMENTS are not computed
+if enough was told already."
+  `(note-problem ,form ,control (lambda () (list ,@arguments))))
+
+(defun note-problem (form control arguments)
+  (destructuring-bind (severity control) (if (consp control) control (list :error control))
+    (let* ((full (>= (report-count *report*) (the fixnum *problems-limit*)))
+           (subject (if full nil *subject*))
+           (tally (tally-of (if full :others subject))))
+      (flet ((problem ()
+               (multiple-value-bind (line column) (form-place form)
+                 (make-problem :severity severity :file (form-file form) :line line
+                               :column column :subject subject))))
+        (cond ((not (or full (>= (tally-told tally) (the fixnum *problem-limit*))))
+               (tell-problem (problem) tally (apply #'format nil control (funcall arguments))))
+              (t
+               ;; Nothing but counting, or a long record would take more than linear time.
+               (unless (tally-more tally)
+                 (push (setf (tally-more tally) (problem)) (report-problems *report*)))
+               (count-problem severity tally))))))
+  nil)
+
+(defun tally-of (subject)
+  "Return the tally of SUBJECT in *REPORT*."
+  (unless (report-tallies *report*)
+    (setf (report-tallies *report*) (make-hash-table :test #'equal)
+          (report-noted *report*) (make-hash-table :test #'equal)))
+  (let ((tallies (report-tallies *report*)))
+    (or (gethash subject tallies)
+        (setf (gethash subject tallies) (make-tally)))))
+
+(defun tell-problem (problem tally text)
+  "Add PROBLEM with TEXT to *REPORT*, if it is not there yet."
+  (setf (problem-place problem) *place*
+        (problem-text problem) text)
+  (let ((noted (report-noted *report*))
+        ;; A string: of a list, only the first elements would be hashed.
+        (key (format nil "~a ~a" (problem-severity problem) problem)))
+    (unless (gethash key noted)
+      (setf (gethash key noted) t)
+      (incf (tally-told tally))
+      (incf (report-count *report*))
+      (push problem (report-problems *report*)))))
+
+(defun count-problem (severity tally)
+  "Count a problem of SEVERITY that is not told.  What stands for all such is an error if one is."
+  (when (eq severity :error)
+    (setf (problem-severity (tally-more tally)) :error))
+  (setf (problem-text (tally-more tally))
+        (format nil "and ~d more problem~:p" (incf (tally-untold tally)))))
+
 (defmacro with-problems (&body body)
   "Run BODY; return its value and the list of the problems that it complained of, in order."
-  `(let ((*problems* '()) (*noted* (make-hash-table :test #'equal)) (*looks-left* 200000))
+  `(let ((*report* (make-report)) (*looks-left* 200000))
      (let ((value (plainly ,@body)))
-       (values value (reverse *problems*)))))
+       (values value (reverse (report-problems *report*))))))
 
 (defun warnings-in (problems)
   "Return those of PROBLEMS that are warnings."

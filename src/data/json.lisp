@@ -1,4 +1,4 @@
-;;;; json.lisp -- the reader of JSON (RFC 8259), with the tokens, limits and reports of reader.lisp.
+;;;; json.lisp -- the reader of JSON (RFC 8259, RFC 7464), with the tokens, limits and reports of reader.lisp.
 
 (in-package :supergrip-data)
 
@@ -18,6 +18,9 @@
   (mapcar #'make-json-literal '("true" "false" "null"))
   "The three literals.")
 
+(defconstant +separator+ (code-char 30)
+  "The record separator, which stands before each value in JSON text sequences, and in no value.")
+
 (declaim (inline json-blank-p))
 (defun json-blank-p (character)
   (or (char= character #\Space) (char= character #\Newline) (char= character #\Return)
@@ -28,17 +31,18 @@
   (loop for character = (peek source)
         while (and character (json-blank-p character))
         do (next source)
-           (check-size source)
         finally (return character)))
 
 (defun skip-to-json (source)
-  "Skip white space of any length; return the first character of the next value, or NIL at the
-end."
-  (start-record source)
+  "Skip white space of any length, byte order marks, and the separators of text sequences; return
+the first character of the next value, or NIL at the end."
+  (end-record source)
   (loop for character = (peek source)
-        while (and character (json-blank-p character))
-        do (next source)
-           (start-record source))
+        do (cond ((null character) (return))
+                 ((json-blank-p character) (next source))
+                 ((or (char= character +mark+) (char= character +separator+)) (skip-mark source))
+                 (t (return))))
+  (start-record source)
   (peek source))
 
 (defun take-character (source)
@@ -52,7 +56,9 @@ string, a JSON-ARRAY, a JSON-OBJECT or a JSON-LITERAL.  Signals a SYNTAX-ERROR."
   (read-value source 0))
 
 (defun read-value (source depth)
+  (declare (type (integer 0 1000) depth))
   (let ((character (skip-white source)))
+    (note-place source depth)
     (case character
       ((nil) (fail source "a value is missing at the end"))
       (#\{ (read-object source (deeper source depth)))
@@ -95,19 +101,27 @@ WHAT names it for the reports."
     (make-json-object members)))
 
 (defun read-member (source depth)
-  "Read a key and its value."
+  "Read a key, which is a name, and its value."
   (unless (eql (peek source) #\")
     (fail source "~a stands where a key in double quotes should"
           (character-description (peek source))))
-  (let ((key (read-json-string source)))
+  (note-place source depth)
+  (let ((line (source-line source))
+        (column (source-column source))
+        (key (read-json-string source)))
+    (when (> (length key) (the fixnum *name-limit*))
+      (fail-at source line column "a name of ~d characters; at most ~d are read"
+               (length key) *name-limit*))
     (unless (eql (skip-white source) #\:)
-      (fail source "the key \"~a\" is not followed by a colon" (excerpt key)))
+      (fail-at source line column "the key \"~a\" is not followed by a colon" (excerpt key)))
     (next source)
+    (unless (skip-white source)
+      (fail-at source line column "the key \"~a\" has no value" (excerpt key)))
     (cons key (read-value source depth))))
 
 (defun excerpt (text)
   "Return the first characters of TEXT, for a report."
-  (subseq text 0 (min 40 (length text))))
+  (visible-text (subseq text 0 (min 40 (length text)))))
 
 ;;; Strings
 
@@ -122,10 +136,9 @@ WHAT names it for the reports."
       (let ((character (peek source)))
         (cond ((null character) (fail-at source line column "this string is never closed"))
               ((char< character #\Space)
-               (fail source "in a string, character ~d must be written as \\u~4,'0x"
-                     (char-code character) (char-code character))))
+               (fail source "in a string, ~a must be written as \\u~4,'0x"
+                     (code-text character) (char-code character))))
         (next source)
-        (check-size source)
         (case character
           (#\" (setf (source-inside source) nil)
            (let ((text (subseq (source-token source) 0 count)))
@@ -199,8 +212,7 @@ A surrogate alone, which is no character, becomes U+FFFD, as bytes that are not 
     (loop for character = (peek source)
           while (and character (json-token-character-p character))
           do (setf count (push-token source character count))
-             (next source)
-             (check-size source))
+             (next source))
     (when (zerop count)
       (fail source "~a can't stand here" (character-description (peek source))))
     (let ((token (source-token source)))
@@ -241,10 +253,13 @@ before its digits, and digits on both sides of a point."
 
 ;;; Going on after an error
 
-(defun skip-json (source stops)
+(defun skip-json (source stops &optional depth)
   "Skip what is left of a value in which READ-JSON has found an error: as far as the brace that
 closes it.  Outside all braces, skip as far as one of the characters STOPS or the end of the line.
-Brackets count for nothing inside braces, since the value may lack one."
+Brackets count for nothing inside braces, since the value may lack one; a separator before a brace ends it.
+DEPTH, if it is given, tells how many braces are open."
+  (end-record source)
+  (when depth (setf (source-depth source) depth))
   (loop for character = (peek source)
         while character
         until (and (zerop (source-depth source)) (null (source-inside source))
@@ -255,7 +270,8 @@ Brackets count for nothing inside braces, since the value may lack one."
 
 (defun skip-json-character (source character)
   "Note what CHARACTER, just skipped, opens or closes; true if it ends the value."
-  (cond ((char= character #\Newline)
+  (cond ((char= character +separator+) (eql (peek source) #\{))
+        ((char= character #\Newline)
          ;; No string goes on in the next line.
          (setf (source-inside source) nil)
          (zerop (source-depth source)))

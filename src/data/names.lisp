@@ -29,6 +29,46 @@ keyword that its code uses; any other becomes a fresh symbol, which can be colle
 never interns."
   (or (find-symbol text :keyword) (make-symbol text)))
 
+;;; Characters that show nothing
+
+(defparameter +invisible+
+  '((#x0 #x1f) (#x7f #xa0) #xad (#x300 #x36f) #x61c (#x115f #x1160) #x1680 (#x17b4 #x17b5)
+    (#x180b #x180f) (#x2000 #x200f) (#x2028 #x202f) (#x205f #x206f) (#x20d0 #x20ff) #x2800 #x3000
+    #x3164 (#xd800 #xf8ff) (#xfe00 #xfe0f) (#xfe20 #xfe2f) #xfeff #xffa0 (#xfff0 #xfffb)
+    (#xfffe #xffff) (#x1bca0 #x1bca3) (#x1d173 #x1d17a) (#xe0000 #x10ffff))
+  "Codes and ranges of codes of what shows nothing by itself, but the space: controls, blanks, marks
+that change what stands beside them, and what has no shape of its own.")
+
+(defun invisible-p (character)
+  "True if CHARACTER shows nothing and is no space."
+  (let ((code (char-code character)))
+    (and (or (< code 32) (> code 126))
+         (some (lambda (range)
+                 (if (consp range) (<= (first range) code (second range)) (= range code)))
+               +invisible+))))
+
+(defun code-text (character)
+  "Return what CHARACTER is called: U+00A0."
+  (format nil "U+~4,'0x" (char-code character)))
+
+(defun visible-text (text)
+  "Return TEXT, a string, with what shows nothing called by its name: <U+00A0>."
+  (if (notany #'invisible-p text)
+      text
+      (with-output-to-string (out)
+        (loop for character across text
+              do (if (invisible-p character)
+                     (format out "<~a>" (code-text character))
+                     (write-char character out))))))
+
+;;; Forms in reports
+
+(defun cut-text (text)
+  "Return TEXT, a string, cut after some 200 characters."
+  (if (> (length text) 200)
+      (concatenate 'string (subseq text 0 197) "...")
+      text))
+
 (defun form-text (form &optional (most 200))
   "Return FORM as it would stand in a file, cut after MOST characters; in full if MOST is NIL, which
 is for forms that were read."
@@ -51,8 +91,8 @@ is for forms that were read."
 ends it."
   (flet ((put (text) (funcall put text)))
     (cond ((null form) (put "()"))
-          ((symbolp form) (put (symbol-name form)))
-          ((stringp form) (put (prin1-to-string form)))
+          ((symbolp form) (put (visible-text (symbol-name form))))
+          ((stringp form) (put (prin1-to-string (visible-text form))))
           ((floatp form) (put (float-text form)))
           ((atom form) (put (princ-to-string form)))
           ((and (name= (first form) "QUOTE") (consp (rest form)) (null (cddr form)))

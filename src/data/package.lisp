@@ -10,6 +10,7 @@ in them.")
    #:problem #:make-problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text
    #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
+   #:*places* #:form-file #:form-line
    #:make-problem #:errors-in #:warnings-in #:suggestion
    ;; text
    #:plainly #:plain-text
@@ -20,10 +21,12 @@ in them.")
    #:retry
    ;; names and forms
    #:name-text #:name= #:name-in #:namep #:part-p #:canonical #:canonical-name #:form-text #:as-double
+   #:cut-text #:visible-text #:invisible-p #:code-text
    ;; reader
    #:source #:string-source #:stream-source #:source-line #:source-column #:source-name
    #:read-datum #:skip-blanks #:end-of-data #:read-all #:record-start-line
-   #:skip-to-record #:skip-record #:make-source
+   #:peek #:source-buffer #:source-position #:source-end #:utf-16-p
+   #:skip-to-record #:skip-record #:make-source #:part-place #:+mark+ #:+separator+
    #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*
    ;; JSON
    #:read-json #:skip-to-json #:take-character #:skip-json #:json-array #:json-array-p #:make-json-array #:json-array-elements

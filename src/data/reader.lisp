@@ -11,10 +11,17 @@
 (defparameter *record-limit* 65536 "The most characters that one outermost form may have.")
 (defparameter *name-limit* 64 "The most characters that a name may have.")
 
+(defconstant +mark+ (code-char #xfeff)
+  "The byte order mark, which may stand before each of several files that were put together.")
+
+(defconstant +unbounded+ (ash 1 60) "The BOUND of a source between records.")
+
 (defstruct (source (:constructor make-source (buffer end &key refill name)))
   "Where characters come from.  REFILL is NIL or a function without arguments that returns the
 next buffer, its end and, if that is not 0, the place where its characters begin; or NIL at the
-end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an error was found."
+end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an error was found.
+BOUND is the place in the buffer where the record that is being read has all the characters that it
+may have.  TRACK tells where each part of the record begins (see NOTE-PLACE)."
   (buffer "" :type (simple-array character (*)))
   (position 0 :type fixnum)
   (end 0 :type fixnum)
@@ -23,13 +30,15 @@ end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an erro
   (line 1 :type fixnum)
   (offset 0 :type fixnum)               ; of the buffer's first character in the whole input
   (line-offset 0 :type fixnum)          ; of the current line's first character
-  (record-offset 0 :type fixnum)        ; of the current record's first character
+  (bound +unbounded+ :type fixnum)
   (record-start-line 1 :type fixnum)
   (depth 0 :type fixnum)                ; how many lists are open
   (inside nil :type symbol)
   (lines nil)                           ; NIL or a table from list to line
   (comment '() :type list)              ; the lines of comment just before, the latest first
   (comments nil)                        ; NIL or a table from outermost list to its comment
+  (track (make-array 256 :element-type 'fixnum) :type (simple-array fixnum (*)))
+  (track-end 0 :type fixnum)
   (token (make-string 128) :type (simple-array character (*))))
 
 (defun string-source (string &key name)
@@ -64,6 +73,10 @@ end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an erro
 
 ;;; Characters
 
+(defun too-long (source)
+  (fail source "the form that begins in line ~d is longer than ~d characters"
+        (source-record-start-line source) *record-limit*))
+
 (defun refill (source)
   "Get more characters.  Returns NIL at the end of the input."
   (when (source-refill source)
@@ -71,6 +84,7 @@ end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an erro
       (when buffer
         (let ((start (or start 0)))
           (incf (source-offset source) (- (source-end source) start))
+          (decf (source-bound source) (- (source-end source) start))
           (setf (source-buffer source) buffer
                 (source-position source) start
                 (source-end source) end)
@@ -84,20 +98,16 @@ end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an erro
       nil))
 
 (defun next (source)
-  "Take the character that PEEK returned."
+  "Take the character that PEEK returned.  Signals a SYNTAX-ERROR if the record is too long; every
+character of a record comes through here."
+  (when (>= (source-position source) (source-bound source))
+    (too-long source))
   (let ((character (schar (source-buffer source) (source-position source))))
     (incf (source-position source))
     (when (char= character #\Newline)
       (incf (source-line source))
       (setf (source-line-offset source) (+ (source-offset source) (source-position source))))
     character))
-
-(declaim (inline check-size))
-(defun check-size (source)
-  (when (> (- (+ (source-offset source) (source-position source)) (source-record-offset source))
-           (the fixnum *record-limit*))
-    (fail source "the form that begins in line ~d is longer than ~d characters"
-          (source-record-start-line source) *record-limit*)))
 
 (declaim (inline blankp delimiterp))
 (defun blankp (character)
@@ -121,9 +131,58 @@ end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an erro
                     code)))))
 
 (defun character-description (character)
-  (if (and (graphic-char-p character) (char/= character #\Space))
-      (string character)
-      (format nil "character ~d" (char-code character))))
+  "Return CHARACTER, or what it is called if it can't be seen or stands for what is not UTF-8."
+  (case character
+    (#\Space "a space")
+    (#\Newline "the end of the line")
+    (#.(code-char #xfffd) "what is not UTF-8 (U+FFFD)")
+    (#.(code-char 0) "U+0000 (is this UTF-16?)")
+    (t (if (invisible-p character) (code-text character) (string character)))))
+
+(defun utf-16-p (text start end)
+  "True if TEXT from START to END, made of octets as if they were UTF-8, is UTF-16, whose first
+characters are ASCII: every other octet of them is 0."
+  (declare (type (simple-array character (*)) text))
+  (let ((start (or (position (code-char #xfffd) text :start start :end (min end (+ start 2))
+                                                     :test-not #'char=)
+                   (min end (+ start 2)))))
+    (flet ((zero-p (place) (char= (schar text place) (code-char 0))))
+      (and (>= (- end start) 4)
+           (loop for place from start below (+ start 3)
+                 never (eq (zero-p place) (zero-p (1+ place))))))))
+
+;;; Where the parts of a record are
+
+(declaim (inline note-place))
+(defun note-place (source depth)
+  "Note that a part of the record begins here: a form, or the key of an object.  DEPTH lists are
+around it."
+  (declare (type (integer 0 1001) depth))
+  (let ((end (source-track-end source)))
+    (when (= end (length (source-track source)))
+      (setf (source-track source)
+            (replace (make-array (* 2 end) :element-type 'fixnum) (source-track source))))
+    (setf (aref (source-track source) end)
+          (logior (ash (ldb (byte 32 0) (source-column source)) 30)
+                  (ash (ldb (byte 20 0) (- (source-line source) (source-record-start-line source)))
+                       10)
+                  (min depth 1000))
+          (source-track-end source) (1+ end))))
+
+(defun part-place (source path)
+  "Return the line and the column of a part of the record read last.  PATH says which: (1 2) is the
+third part of the second part of it.  Of a part that is not there, the one around it is told."
+  (let* ((track (source-track source)) (end (source-track-end source)) (place 0))
+    (flet ((depth (place) (ldb (byte 10 0) (aref track place))))
+      (dolist (number path)
+        (let ((part (loop with depth = (depth place)
+                          for next from (1+ place) below end
+                          while (> (depth next) depth)
+                          when (and (= (depth next) (1+ depth)) (minusp (decf number)))
+                            return next)))
+          (if part (setf place part) (return)))))
+    (values (+ (source-record-start-line source) (ldb (byte 20 10) (aref track place)))
+            (ldb (byte 32 30) (aref track place)))))
 
 (defun skip-blanks (source)
   "Skip white space and comments; return the next character, or NIL at the end."
@@ -134,11 +193,9 @@ end.  DEPTH and INSIDE (NIL, :STRING or :COMMENT) tell where in a record an erro
                   (setf (source-inside source) :comment)
                   (loop for c = (peek source)
                         while (and c (char/= c #\Newline))
-                        do (next source)
-                           (check-size source))
+                        do (next source))
                   (setf (source-inside source) nil))
-                 (t (return character)))
-           (check-size source)))
+                 (t (return character)))))
 
 ;;; Forms
 
@@ -164,20 +221,32 @@ integers, ratios or doubles; 'X becomes (QUOTE X).  Signals a SYNTAX-ERROR."
   (setf (source-comment source) '()))
 
 (defun skip-to-record (source)
-  "Skip white space and comments of any length; return the first character of the next record, or
-NIL at the end."
-  (start-record source)
+  "Skip white space, byte order marks and comments of any length; return the first character of the
+next record, or NIL at the end."
+  (end-record source)
   (loop for character = (peek source)
-        while (and character (or (blankp character) (char= character #\;)))
-        do (skip-between source)
-           (start-record source))
+        do (cond ((null character) (return))
+                 ((or (blankp character) (char= character #\;)) (skip-between source))
+                 ((char= character +mark+) (skip-mark source))
+                 (t (return))))
+  (start-record source)
   (peek source))
 
 (defun start-record (source)
-  (setf (source-record-offset source) (+ (source-offset source) (source-position source))
+  (setf (source-bound source) (+ (source-position source) (the fixnum *record-limit*))
         (source-record-start-line source) (source-line source)
+        (source-track-end source) 0
         (source-depth source) 0
         (source-inside source) nil))
+
+(defun end-record (source)
+  "Let what comes have any length, until START-RECORD."
+  (setf (source-bound source) +unbounded+))
+
+(defun skip-mark (source)
+  "Take a character that counts for nothing, not even as a column."
+  (next source)
+  (incf (source-line-offset source)))
 
 (defun skip-between (source)
   "Skip one blank character, or a comment of any length, between outermost forms.
@@ -206,8 +275,9 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
 
 (defun read-form (source depth)
   "Read the next form; there must be one."
-  (declare (fixnum depth))
+  (declare (type (integer 0 1000) depth))
   (let ((character (skip-blanks source)))
+    (note-place source depth)
     (cond ((char= character #\() (read-list source depth))
           ((char= character #\') (read-quoted source depth))
           ((char= character #\") (read-string source))
@@ -242,9 +312,11 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
     (cdr head)))
 
 (defun read-quoted (source depth)
+  (declare (type (integer 0 1000) depth))
   (let ((line (source-line source))
         (column (source-column source)))
     (next source)
+    (note-place source (1+ depth))      ; as if QUOTE stood there
     (unless (skip-blanks source)
       (fail-at source line column "nothing stands after this '"))
     (let ((form (list :quote (read-form source (deeper source depth)))))
@@ -264,7 +336,6 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
         (when (null character)
           (fail-at source line column "this string is never closed"))
         (next source)
-        (check-size source)
         (case character
           (#\" (setf (source-inside source) nil)
            (return (subseq (source-token source) 0 count)))
@@ -295,8 +366,7 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
                (fail source "~a can't stand in a name or a number"
                      (character-description character)))
              (setf count (push-token source character count))
-             (next source)
-             (check-size source))
+             (next source))
     (when (zerop count)
       (fail source "~a can't stand here" (character-description (peek source))))
     (if (number-start-p (source-token source) count)

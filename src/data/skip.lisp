@@ -5,6 +5,7 @@
 (defun skip-record (source)
   "Skip what is left of a record in which READ-DATUM has found an error: as far as the parenthesis
 that closes it or, outside all parentheses, as far as the next one or the end of the line."
+  (end-record source)
   (loop for character = (peek source)
         while character
         until (and (zerop (source-depth source)) (null (source-inside source))

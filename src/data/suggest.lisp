@@ -53,9 +53,9 @@ more than MOST."
   (let* ((text (coerce (subseq text 0 (min 60 (length text))) 'simple-string))
          (best nil) (least 4))
     (when (and (> (length text) 2)      ; any two short names are close
-               (or (null *looks-left*)
-                   (plusp (decf *looks-left* (length known)))))
+               (or (null *looks-left*) (plusp *looks-left*)))
       (dolist (word known)
+        (when *looks-left* (decf *looks-left*))
         (let* ((most (min (1- least) (max 1 (floor (length word) 3))))
                (distance (distance-within text (coerce word 'simple-string) most)))
           (when distance
