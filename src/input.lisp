@@ -146,8 +146,9 @@ a comment or a line of a log does not matter; or NIL."
   "Return the notation of what SOURCE, which reads INPUT, holds: :LISP or :JSON."
   (let ((first (skip-to-json source)))
     ;; What SOURCE did not take yet is looked at first.
-    (setf (input-place input) (source-position source)
-          (source-end source) (source-position source))
+    (when first
+      (setf (input-place input) (source-position source)
+            (source-end source) (source-position source)))
     (loop
       (let ((told (first-notation (input-characters input) (input-place input) (input-end input))))
         (when (or told

@@ -226,6 +226,8 @@ are not UTF-8 become U+FFFD.  Signals a READ-FAILURE."
                     (setf octets (replace (make-array (* 2 end) :element-type '(unsigned-byte 8))
                                           octets))))
       (close-descriptor descriptor))
+    ;; What a signal cut off is not to be judged.
+    (when *signal* (ask-to-end *signal*))
     (coerce (sb-ext:octets-to-string octets :end end
                                             :external-format '(:utf-8 :replacement #\ufffd))
             '(simple-array character (*)))))

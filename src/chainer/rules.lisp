@@ -284,7 +284,7 @@ which serves other runs, too; and it may be called again when a question about t
 
 ;;; Rules
 
-(defparameter *part-limit* 500 "The most clauses that a rule may have, and the most actions.")
+(defparameter *clause-limit* 500 "The most clauses that a rule may have.")
 
 (defun parse-parts (parse forms label)
   "Return what PARSE makes of each of FORMS, the place in the reports being LABEL and a number."
@@ -315,8 +315,8 @@ NIL after a complaint."
            (complain form "IF has no clause"))
           ((null (rest (fourth form)))
            (complain form "THEN has no action"))
-          ((or (nthcdr *part-limit* (rest (third form))) (nthcdr *part-limit* (rest (fourth form))))
-           (complain form "more than ~d clauses or actions" *part-limit*))
+          ((nthcdr *clause-limit* (rest (third form)))
+           (complain form "more than ~d clauses" *clause-limit*))
           (t
            (setf (rule-clauses *rule*) (parse-parts #'parse-clause (rest (third form)) "clause"))
            (let ((*clause-failed* (member nil (rule-clauses *rule*))))
