@@ -11,38 +11,62 @@
   :pathname "src/"
   :serial t
   :components ((:file "package")
-               (:file "sbcl")
-               (:file "figures")
-               (:file "frames")
-               (:file "box")
-               (:file "operators")
-               (:file "forms")
-               (:file "programs")
-               (:file "gripper")
-               (:file "graspbase")
-               (:file "inputs")
-               (:file "quality")
-               (:file "try")
-               (:file "knowledge")
-               (:file "plan")
-               (:file "misses")
-               (:file "failure")
-               (:file "transcript")
-               (:file "explain")
-               (:file "refusal")
-               (:file "whynot")
-               (:file "advice")
-               (:file "describe")
-               (:file "trace")
-               (:file "repl")
-               (:file "edit")
-               (:file "input")
-               (:file "output")
-               (:file "jsonbox")
-               (:file "record")
-               (:file "batch")
-               (:file "main")
-               (:static-file "boot.lisp")
+               (:module "hand"
+                :serial t
+                :components ((:file "words")
+                             (:file "matchings")
+                             (:file "box")
+                             (:file "operators")
+                             (:file "forms")
+                             (:file "programs")
+                             (:file "gripper")
+                             (:file "grasps")
+                             (:file "inputs")))
+               (:module "plan"
+                :serial t
+                :components ((:file "quality")
+                             (:file "try")
+                             (:file "knowledge")
+                             (:file "plan")
+                             (:file "candidate")))
+               (:module "why"
+                :serial t
+                :components ((:file "explanation")
+                             (:file "misses")
+                             (:file "failure")
+                             (:file "derivation")
+                             (:file "refusal")
+                             (:file "how")
+                             (:file "not-chosen")
+                             (:file "choice")
+                             (:file "describe")))
+               (:module "session"
+                :serial t
+                :components ((:file "transcript")
+                             (:file "trace")
+                             (:file "repl")
+                             (:file "edit")
+                             (:file "compare")))
+               (:static-file "boot.lisp"))
+  :in-order-to ((test-op (test-op "supergrip/test"))))
+
+(defsystem "supergrip/batch"
+  :description "Many boxes in, one record a box out, in one process; and the command line."
+  :version "0.1.0"
+  :license "MIT"
+  :depends-on ("supergrip")
+  :pathname "src/"
+  :serial t
+  :components ((:module "batch"
+                :serial t
+                :components ((:file "system")
+                             (:file "json")
+                             (:file "notation")
+                             (:file "input")
+                             (:file "output")
+                             (:file "record")
+                             (:file "batch")
+                             (:file "main")))
                (:static-file "build.lisp"))
   :in-order-to ((test-op (test-op "supergrip/test"))))
 
@@ -56,9 +80,10 @@
   :components ((:file "package")
                (:file "numbers")
                (:file "geometry")
-               (:file "labels")
                (:static-file "picture.css")
+               (:file "places")
                (:file "svg")
+               (:file "labels")
                (:file "subject")
                (:file "scene")
                (:file "pictures")
@@ -82,14 +107,14 @@
   :components ((:module "data"
                 :serial t
                 :components ((:file "package")
+                             (:file "sbcl")
                              (:file "plain")
-                             (:file "conditions")
+                             (:file "problems")
                              (:file "suggest")
                              (:file "names")
                              (:file "numbers")
                              (:file "reader")
-                             (:file "skip")
-                             (:file "json")))
+                             (:file "skip")))
                (:module "chainer"
                 :serial t
                 :components ((:file "package")
@@ -118,7 +143,7 @@
 (defsystem "supergrip/test"
   :description "All tests."
   :license "MIT"
-  :depends-on ("supergrip" "supergrip/chainer-test" "supergrip/random-boxes" "supergrip/oracle")
+  :depends-on ("supergrip/batch" "supergrip/chainer-test" "supergrip/random-boxes" "supergrip/oracle")
   :pathname "t/"
   :serial t
   :components ((:file "paper")
@@ -155,7 +180,7 @@
 (defsystem "supergrip/bench"
   :description "The benchmark: sbcl --script t/bench/run.lisp."
   :license "MIT"
-  :depends-on ("supergrip" "supergrip/oracle")
+  :depends-on ("supergrip/batch" "supergrip/oracle")
   :pathname "t/"
   :serial t
   :components ((:module "bench"

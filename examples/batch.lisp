@@ -7,5 +7,6 @@
 #+sbcl (sb-sys:enable-interrupt sb-unix:sigint :default)
 
 (load (merge-pathnames "../src/boot.lisp" *load-truename*))
+(supergrip-boot:load-quietly "supergrip/batch")
 
 (supergrip::main-and-end)

@@ -30,7 +30,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:not-chosen-faces
    #:advice #:advice-sentence #:advice-force #:advice-velocity #:advice-runner-up #:advice-margin
    #:advice-changes #:limit #:limit-axis #:limit-has #:limit-needs #:limit-radius
-   #:change #:change-what #:change-from #:change-to #:change-box #:change-plan
+   #:change #:change-words #:change-what #:change-from #:change-to #:change-box #:change-plan
    ;; watching
    #:*trace-level* #:trace-rule #:untrace-rule #:trace-grasp #:untrace-grasp
    #:break-on #:unbreak #:chain-break #:next-rule #:rule-counts
@@ -42,11 +42,11 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:box-constrained #:box-force-needed #:box-velocity-needed
    ;; knowledge
    #:*knowledge* #:load-knowledge #:knowledge #:knowledge-rules #:knowledge-grasps
-   #:knowledge-gripper #:knowledge-warnings #:grasp-name #:grasp-form
+   #:knowledge-gripper #:knowledge-warnings #:knowledge-rulebase #:grasp-name #:grasp-form
    ;; plans
    #:plan #:*gamma* #:plan-box #:plan-knowledge #:plan-gamma #:plan-verdict #:plan-reason
    #:plan-best #:plan-candidates #:plan-possible #:plan-rejected #:plan-log #:plan-assertions
-   #:plan-grasp #:plan-matching #:plan-quality
+   #:plan-grasp #:plan-matching #:plan-quality #:plan-stop #:plan-memory
    #:write-transcript
    ;; candidates
    #:candidate #:candidate-grasp #:candidate-matching #:candidate-outcome #:candidate-quality
@@ -56,8 +56,6 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-wrench #:candidate-twist #:candidate-failure
    #:candidate-palm #:candidate-load #:candidate-force-need #:candidate-velocity-need
    #:try-grasp
-   ;; the batch: what writes a report
-   #:*report-index*
    ;; conditions, from the data layer
    #:supergrip-error #:input-error #:input-error-problems #:syntax-error #:box-error
    #:knowledge-error #:knowledge-warning #:knowledge-warning-problems #:retry

@@ -325,7 +325,8 @@ cat \"$1\" | \"$0\" --input json --format sexp" (format nil "~afuzz-json.in" (di
 
 (defun run-with (form &rest arguments)
   "Run the script of the batch with ARGUMENTS, FORM evaluated before it.  Return status and errors."
-  (with-text-file (file (format nil "(load ~s) ~a (supergrip::main-and-end)"
+  (with-text-file (file (format nil "(load ~s) (supergrip-boot:load-quietly \"supergrip/batch\") ~a
+                                               (supergrip::main-and-end)"
                                 (uiop:native-namestring (project-file "src/boot.lisp")) form))
     (multiple-value-bind (status output errors)
         (run-on *pencil* (list* "sbcl" "--script" file arguments))
@@ -335,7 +336,9 @@ cat \"$1\" | \"$0\" --input json --format sexp" (format nil "~afuzz-json.in" (di
 (test reports-that-cannot-be-made
   (let ((folder (format nil "~a.pages/r[1]/*" (program))))
     (flet ((reports (form &optional (folder folder))
-             (run-with (format nil "(setf supergrip::*report-index* (lambda (plans folder) ~a))" form)
+             (run-with (format nil "(defpackage :supergrip-draw (:use :cl) (:export #:report-index))
+                                    (defun supergrip-draw:report-index (plans folder) ~a)"
+                               form)
                        "--report" folder)))
       (is (equal '(0 "") (reports "plans (assert (probe-file folder)) (values folder 0)")))
       (is (equal (list 74 (format nil "supergrip: ~a: 2 pages can't be drawn; index.html says which, and why~%"
@@ -348,7 +351,7 @@ cat \"$1\" | \"$0\" --input json --format sexp" (format nil "~afuzz-json.in" (di
       (is (equal (list 74 (format nil "supergrip: /dev/null: can't be written: Not a directory~%"))
                  (reports "plans (error \"called\")" "/dev/null"))))
     (destructuring-bind (status errors)
-        (run-with "(setf supergrip::*report-index* nil) (supergrip::keep-shipped-files)"
+        (run-with "(supergrip::keep-shipped-files)"
                   "--report" folder)
       (is (eql 69 status))
       (is (search "built without cl-who" errors)))))

@@ -244,9 +244,11 @@ given, and return the exit status."
           ((find 65 statuses))
           (t 0))))
 
-(defvar *report-index* nil
-  "The function that writes the pages and the index of a list of plans into a directory, a string,
-or NIL: where the pictures are loaded, they set it.")
+(defun report-index ()
+  "Return the function that writes the pages and the index of a list of plans into a directory, a
+string; NIL if the pictures are not loaded."
+  (let ((name (uiop:find-symbol* "REPORT-INDEX" "SUPERGRIP-DRAW" nil)))
+    (and name (fboundp name) (fdefinition name))))
 
 (define-condition no-pictures (error)
   ((reason :initarg :reason :reader no-pictures-reason))
@@ -256,14 +258,14 @@ or NIL: where the pictures are loaded, they set it.")
   (:documentation "The pictures are not in this program, and can't be loaded either."))
 
 (defun reporter ()
-  "Return *REPORT-INDEX*, loading the pictures first if they are not there.  Signals NO-PICTURES."
-  (cond (*report-index*)
+  "As REPORT-INDEX, loading the pictures first if they are not there.  Signals NO-PICTURES."
+  (cond ((report-index))
         (*kept-files*
          (error 'no-pictures :reason "it was built without cl-who; install that, and build it again"))
         (t (handler-case (let ((*error-output* (make-broadcast-stream))) ; SBCL's word on the file
                            (load (merge-pathnames "src/draw/boot.lisp" *home*)))
              (error (condition) (error 'no-pictures :reason condition)))
-           *report-index*)))
+           (report-index))))
 
 (defun write-report (batch directory)
   "Write the report of what BATCH has kept into DIRECTORY, a string.  Return NIL, or 74 after a
@@ -385,7 +387,7 @@ directory of SUPER-GRIP, and end."
       (system-failure (condition)
         (tell "supergrip: ~a: ~a" file condition)
         (end-process 66)))
-    (unless *report-index*
+    (unless (report-index)
       (tell "supergrip: without --report, since cl-who is not there"))
     (keep-shipped-files)
     (never-debug #'report-internal-error)

@@ -1,4 +1,4 @@
-;;;; jsonbox.lisp -- a box description in JSON, turned into the paper's list.
+;;;; notation.lisp -- a box description in JSON, turned into the paper's list.
 
 (in-package :supergrip)
 

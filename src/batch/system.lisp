@@ -1,5 +1,4 @@
-;;;; sbcl.lisp -- all that is needed of SBCL itself: file descriptors, signals, digits, atomic lists,
-;;;; floating point modes.
+;;;; system.lisp -- what the batch needs of SBCL and the system: descriptors, signals, the process.
 ;;;;
 ;;;; Streams of the standard would do for none of it: they wait until a buffer is full, so a pipe
 ;;;; that pauses would get no answer, and they hide why a write failed.
@@ -25,55 +24,6 @@
 (defun closed-pipe-p (condition)
   "True if the SYSTEM-FAILURE CONDITION says that nobody reads what is written."
   (eql (system-failure-errno condition) sb-unix:epipe))
-
-;;; Lists that several threads share
-
-(defmacro take-from (place)
-  "Take the first element of the list in PLACE, a slot of a structure, or return NIL."
-  `(sb-ext:atomic-pop ,place))
-
-(defmacro give-to (place object)
-  "Put OBJECT before the list in PLACE, a slot of a structure."
-  `(sb-ext:atomic-push ,object ,place))
-
-;;; Floating point
-
-(defconstant +float-flags+ (dpb -1 sb-vm:float-sticky-bits 0)
-  "The bits of the floating point modes that only say what happened.")
-
-(defconstant +harmless-modes+
-  (logior +float-flags+
-          (dpb (logior sb-vm:float-overflow-trap-bit sb-vm:float-invalid-trap-bit
-                       sb-vm:float-divide-by-zero-trap-bit)
-               sb-vm:float-traps-byte 0))
-  "The bits on which no plan depends: flags, and the traps of operations without a value, which fail
-with or without a trap.")
-
-(declaim (inline call-with-float-modes))
-(defun call-with-float-modes (kept function)
-  "Call FUNCTION with the bits KEPT of the floating point modes as they are, and the others 0."
-  (let ((modes (sb-vm:floating-point-modes)))
-    (if (zerop (logandc2 modes kept))   ; setting them costs ten times as much
-        (funcall function)
-        (unwind-protect
-             (progn (setf (sb-vm:floating-point-modes) (logand modes kept))
-                    (funcall function))
-          (setf (sb-vm:floating-point-modes) modes)))))
-
-(defmacro with-float-modes ((kept) &body body)
-  (let ((function (gensym "BODY")))
-    `(flet ((,function () ,@body))
-       (declare (dynamic-extent #',function))
-       (call-with-float-modes ,kept #',function))))
-
-(defmacro with-plain-floats (&body body)
-  "Run BODY with numbers rounded to the nearest and no trap for inexact or tiny ones, whatever the
-caller has set."
-  `(with-float-modes (+harmless-modes+) ,@body))
-
-(defmacro without-float-traps (&body body)
-  "As WITH-PLAIN-FLOATS; where an operation has no value, it gives an infinity or a NaN."
-  `(with-float-modes (+float-flags+) ,@body))
 
 ;;; Signals
 ;;;
@@ -129,14 +79,6 @@ caller has set."
        (if *signal* nil (progn ,@body)))))
 
 ;;; Files
-
-(defun native-path (file &key directory)
-  "Return the path of FILE: a path, or its name as the system has it, a string in which no character
-but / means anything.  If DIRECTORY is true, it is a directory, with or without a / at its end."
-  (if (stringp file)
-      (sb-ext:parse-native-namestring file nil *default-pathname-defaults*
-                                      :as-directory directory)
-      (if directory (uiop:ensure-directory-pathname file) (pathname file))))
 
 (defun native-name (file)
   "Return the name of FILE, a path or a string, as the system has it."
@@ -280,13 +222,6 @@ Return the end, which is START at the end of the file or if a signal asks the pr
                      ((eql errno sb-unix:eintr))
                      ((eql errno sb-unix:eagain) (wait-for descriptor :output))
                      (t (error 'write-failure :what "can't be written" :errno errno)))))))
-
-;;; The compiler
-
-(defun global-name-p (name environment)
-  "True if ENVIRONMENT, a macro's, is that of top level, and NAME is no variable, BOX apart."
-  (and (or (null environment) (sb-c::null-lexenv-p environment))
-       (or (eq name 'box) (eq (sb-int:info :variable :kind name) :unknown))))
 
 ;;; Numbers
 

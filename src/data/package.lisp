@@ -12,6 +12,9 @@ in them.")
    #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
    #:*places* #:form-file #:form-line
    #:make-problem #:errors-in #:warnings-in #:suggestion
+   ;; SBCL itself
+   #:take-from #:give-to #:with-plain-floats #:without-float-traps #:native-path
+   #:global-name-p
    ;; text
    #:plainly #:plain-text
    ;; conditions

@@ -1,4 +1,4 @@
-;;;; conditions.lisp -- what is wrong with a file, said once, completely and in one place.
+;;;; problems.lisp -- what is wrong with a file, said once, completely and in one place.
 
 (in-package :supergrip-data)
 

@@ -256,7 +256,7 @@ needed."
 
 ;;; Facts and rules
 
-(defun rulebase-of (plan) (supergrip::knowledge-rulebase (plan-knowledge plan)))
+(defun rulebase-of (plan) (knowledge-rulebase (plan-knowledge plan)))
 
 (defun fact-id (predicate packed)
   "Return the id of a fact in the page."
@@ -280,7 +280,7 @@ needed."
 (defun given-facts (plan)
   "Return the facts that were there before any rule of PLAN ran: lists of predicate and faces."
   (let ((made (mapcar (lambda (fact) (apply #'fact-id (rest fact))) (remembered-facts plan)))
-        (memory (supergrip::plan-memory plan)))
+        (memory (plan-memory plan)))
     (loop for predicate across (supergrip-chainer:rulebase-predicates (rulebase-of plan))
           append (loop for packed in (supergrip-chainer:facts memory predicate)
                        unless (member (fact-id predicate packed) made :test #'string=)
@@ -328,7 +328,7 @@ needed."
 
 (defun put-stop (plan)
   "Write which rule ended the run."
-  (let ((stop (supergrip::plan-stop plan)))
+  (let ((stop (plan-stop plan)))
     (when stop
       (let ((rule (supergrip-chainer:stop-rule stop)))
         (markup (:p "The run was ended by "
@@ -356,12 +356,8 @@ needed."
   (let ((changes (advice-changes (advise plan))))
     (if changes
         (markup (:ul (loop for change in (subseq changes 0 (min 5 (length changes)))
-                           do (markup (:li (say "If ~a were ~a, not ~a: ~a."
-                                                (change-what change)
-                                                (supergrip::figure-exact (change-to change))
-                                                (supergrip::figure-exact (change-from change))
-                                                (supergrip::choice-text
-                                                 (change-plan change))))))))
+                           do (markup (:li (say "~{If ~a were ~a, not ~a: ~a.~}"
+                                                (change-words change)))))))
         (markup (:p "No single need, friction or weight would.")))))
 
 (defun report (plan file)
@@ -475,7 +471,3 @@ the index says why.  Returns the index's name, and the number of pages that can'
                    for number from 1
                    do (put-card plan number problem)))))
      lost)))
-
-;;; The batch finds it here.
-
-(setf *report-index* #'report-index)

@@ -1,4 +1,4 @@
-;;;; graspbase.lisp -- the grasp file: helper functions and grasps, checked.
+;;;; grasps.lisp -- the grasp file: helper functions and grasps, checked.
 
 (in-package :supergrip)
 

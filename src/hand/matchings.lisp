@@ -1,4 +1,4 @@
-;;;; frames.lisp -- the 24 matchings between the faces of the box and those of the grasp.
+;;;; matchings.lisp -- the 24 matchings between the faces of the box and those of the grasp.
 ;;;;
 ;;;; The grasp has six faces of its own, the slots N1 N2 O1 O2 A1 A2, numbered 0 to 5.  A matching
 ;;;; gives each slot a face of the box, so that N O A is a proper rotation of X Y Z.

@@ -1,4 +1,4 @@
-;;;; figures.lisp -- numbers in print, with as many digits as their sentence needs.
+;;;; words.lisp -- numbers in print, each with as many digits as its sentence needs.
 
 (in-package :supergrip)
 
@@ -64,3 +64,16 @@ a number up to a million."
         for text = (figure number digits)
         when (eql number (as-double (first (read-all (string-source text))))) return text
         finally (return text)))
+
+;;; As the paper prints qualities
+
+(defun three-decimals (number)
+  "Return NUMBER with three decimals, as 0.770."
+  (format nil "~,3f" number))
+
+(defun short-decimal (number)
+  "Return NUMBER rounded to three decimals, zeros at the end dropped but one: 0.86, 1.0."
+  (let* ((text (string-right-trim "0" (three-decimals number))))
+    (if (char= (char text (1- (length text))) #\.)
+        (concatenate 'string text "0")
+        text)))

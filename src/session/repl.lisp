@@ -2,17 +2,6 @@
 
 (in-package :supergrip)
 
-(defvar *box* nil)
-(setf (documentation '*box* 'variable) "The box that BOX was set to last, or NIL.")
-
-(define-condition no-box-error (supergrip-error) ()
-  (:report "there is no box yet: set one as (setq box '((SIZE 12 2 2) (WEIGHT 0.2) ...))")
-  (:documentation "Something was asked about the box before one was set."))
-
-(defun need-box ()
-  "Return the box that was set last, or signal a NO-BOX-ERROR."
-  (or *box* (error 'no-box-error)))
-
 (defun current-box ()
   "Return the box that was set last, or NIL."
   *box*)

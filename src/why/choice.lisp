@@ -1,4 +1,4 @@
-;;;; advice.lisp -- why the best grasp is the best, and what would change the choice.
+;;;; choice.lisp -- why the best grasp is the best, and what would change the choice.
 
 (in-package :supergrip)
 
@@ -233,11 +233,17 @@ choice to change."
 (defun write-changes (changes stream)
   (format stream "The choice would change if one of these were different:~%")
   (loop for change in (subseq changes 0 (min 5 (length changes)))
-        do (format stream "  ~a: ~a, not ~a; then ~a~%" (change-what change)
-                   (if (at-once-p (change-from change) (change-size change))
-                       "anything above 0"
-                       (figure-exact (change-to change)))
-                   (figure-exact (change-from change)) (choice-text (change-plan change)))))
+        do (format stream "  ~{~a: ~a, not ~a; then ~a~}~%" (change-words change))))
+
+(defun change-words (change)
+  "Return four texts of CHANGE: what is to be different, the value that it would have, the value that it
+has, and what would then be chosen."
+  (list (change-what change)
+        (if (at-once-p (change-from change) (change-size change))
+            "anything above 0"
+            (figure-exact (change-to change)))
+        (figure-exact (change-from change))
+        (choice-text (change-plan change))))
 
 (defun choice-text (plan)
   (if (plan-best plan)

@@ -191,3 +191,11 @@ NIL if it can."
                             (candidate-grasp miss) (candidate-matching miss)
                             (plainly (miss-text miss plan))))
           (t "NO RULE SUGGESTS A GRASP WHOSE SURFACES ARE FREE"))))
+
+(defmethod print-object ((plan plan) stream)
+  (print-unreadable-object (plan stream :type t)
+    (plainly
+      (if (plan-best plan)
+          (format stream "~a (~{~a~^ ~}) Q=~,3f" (plan-grasp plan) (plan-matching plan)
+                  (plan-quality plan))
+          (format stream "~:[can't: ~;~]~a" (unfinished-p plan) (plan-reason plan))))))

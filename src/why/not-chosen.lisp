@@ -1,4 +1,4 @@
-;;;; whynot.lisp -- why a grasp was not chosen.
+;;;; not-chosen.lisp -- why a grasp was not chosen.
 
 (in-package :supergrip)
 

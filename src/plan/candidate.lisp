@@ -1,0 +1,170 @@
+;;;; candidate.lisp -- what a candidate is, for those who read a plan.
+
+(in-package :supergrip)
+
+(defun candidate-grasp (candidate)
+  "Return the name of the grasp of CANDIDATE, a string."
+  (grasp-name (%candidate-grasp candidate)))
+
+(defun candidate-matching (candidate)
+  "Return the names of the box faces that N1 N2 O1 O2 A1 A2 of CANDIDATE take."
+  (matching-names (%candidate-matching candidate)))
+
+(defun candidate-outcome (candidate)
+  "Return :POSSIBLE, or the step that CANDIDATE failed: :CONDITIONS, :OFFSET, :FINGERS, :OPEN or
+:LIFTING."
+  (%candidate-outcome candidate))
+
+(defun candidate-quality (candidate)
+  "Return the quality index of CANDIDATE, a double, or NIL if it is not possible."
+  (and (eq (candidate-outcome candidate) :possible) (%candidate-quality candidate)))
+
+(defun axis-or-nil (candidate limit)
+  (and (eq (candidate-outcome candidate) :possible) (>= limit 0) (axis-name limit)))
+
+(defun candidate-force-axis (candidate)
+  "Return the axis that limits u_w of CANDIDATE, as \"about Y\", or NIL if no force is needed."
+  (axis-or-nil candidate (%candidate-force-limit candidate)))
+
+(defun candidate-velocity-axis (candidate)
+  "Return the axis that limits u_t of CANDIDATE, as \"along Z\", or NIL if no velocity is needed."
+  (axis-or-nil candidate (%candidate-velocity-limit candidate)))
+
+(defun candidate-force-radius (candidate)
+  "Return u_w of CANDIDATE, or NIL if the task needs no force or it is not possible."
+  (and (candidate-force-axis candidate) (%candidate-force-radius candidate)))
+
+(defun candidate-velocity-radius (candidate)
+  "Return u_t of CANDIDATE, or NIL if the task needs no velocity or it is not possible."
+  (and (candidate-velocity-axis candidate) (%candidate-velocity-radius candidate)))
+
+(defun candidate-offset (candidate)
+  "Return the grasp centre of CANDIDATE from the box centre: three numbers along X Y Z, in cm."
+  (mapcar #'without-sign-of-zero
+          (list (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))
+
+(defun without-sign-of-zero (number)
+  (+ number 0d0))
+
+(defun unit-vector (face sign)
+  "Return the outward normal of the box face FACE, times SIGN, as a list along X Y Z."
+  (loop for axis below 3
+        collect (if (= axis (surface-axis face))
+                    (coerce (* sign (surface-sign face)) 'double-float)
+                    0d0)))
+
+(defun candidate-approach (candidate)
+  "Return the direction of approach of CANDIDATE: a unit vector in the box frame, from the palm to
+the box."
+  (unit-vector (svref (matching-faces (%candidate-matching candidate))
+                      (grasp-palm (%candidate-grasp candidate)))
+               -1))
+
+(defun replay (candidate attempt)
+  "Take CANDIDATE through the steps again, in ATTEMPT, at its box; return ATTEMPT, which holds its
+figures."
+  (run-steps attempt (make-candidate (%candidate-grasp candidate)
+                                     (%candidate-matching candidate)))
+  attempt)
+
+(defmacro with-attempt ((attempt plan) &body body)
+  "Run BODY with ATTEMPT, one at the box of PLAN, which is given back after it."
+  (let ((memory (gensym)) (the-plan (gensym)))
+    `(without-float-traps
+       (let* ((,the-plan (need-plan ,plan))
+              (,memory (start-plan (plan-box ,the-plan) (plan-knowledge ,the-plan)
+                                   (plan-gamma ,the-plan)))
+              (,attempt (memory-client ,memory)))
+         (multiple-value-prog1 (progn ,@body)
+           (give-back ,memory (plan-knowledge ,the-plan)))))))
+
+(defmacro with-replay ((attempt candidate plan) &body body)
+  "Run BODY with ATTEMPT, which holds the figures of CANDIDATE of PLAN and is given back after it."
+  `(with-attempt (,attempt ,plan)
+     (replay ,candidate ,attempt)
+     ,@body))
+
+(defun candidate-contacts (candidate &optional (plan *plan*))
+  "Return the contacts of CANDIDATE, which is possible in PLAN: a list of plists with :SURFACE, the
+name of a box face, :POSITION and :NORMAL, lists along X Y Z in the box frame at the box centre;
+positions in cm, the normals point inward."
+  (with-replay (attempt candidate plan)
+    (execute (grasp-positions (%candidate-grasp candidate)) (attempt-registers attempt))
+    (loop with registers = (attempt-registers attempt)
+          with matching = (%candidate-matching candidate)
+          for (slot p q) in (grasp-contacts (%candidate-grasp candidate))
+          for face = (svref (matching-faces matching) slot)
+          collect (list :surface (surface-name face)
+                        :position (contact-position attempt matching slot
+                                                    (aref registers p) (aref registers q))
+                        :normal (unit-vector face -1)))))
+
+(defun contact-position (attempt matching slot p q)
+  "Return the place, along X Y Z, of a finger on SLOT at P, Q along its two other axes."
+  (let ((position (make-list 3))
+        (rest (list p q)))
+    (dotimes (i 3 position)
+      (setf (nth (aref (matching-axes matching) i) position)
+            (without-sign-of-zero
+             (* (aref (matching-signs matching) i)
+                (if (= i (floor slot 2))
+                    (* (if (evenp slot) 0.5d0 -0.5d0) (aref (attempt-lengths attempt) i))
+                    (+ (aref (attempt-centre attempt) i) (pop rest)))))))))
+
+(defun candidate-wrench (candidate &optional (plan *plan*))
+  "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, gravity's load not taken off:
+six numbers, forces in finger forces, torques in finger force x cm.  NIL where it failed before."
+  (and (member (candidate-outcome candidate) '(:possible :lifting))
+       (with-replay (attempt candidate plan)
+         (coerce (attempt-wrench attempt) 'list))))
+
+(defun candidate-twist (candidate &optional (plan *plan*))
+  "Return the mobility of CANDIDATE of PLAN along X Y Z and about X Y Z, six numbers.
+NIL where it failed before."
+  (and (member (candidate-outcome candidate) '(:possible :lifting))
+       (with-replay (attempt candidate plan)
+         (coerce (attempt-twist attempt) 'list))))
+
+(defun candidate-palm (candidate)
+  "Return the name of the box face that the palm of CANDIDATE is over."
+  (surface-name (svref (matching-faces (%candidate-matching candidate))
+                       (grasp-palm (%candidate-grasp candidate)))))
+
+(defun six-at-centre (function given candidate)
+  "Return the list of six that FUNCTION, of what is GIVEN at the box centre, an offset and a result,
+makes of it at the grasp centre of CANDIDATE."
+  (let ((offset (map '(simple-array double-float (3)) #'abs (candidate-offset candidate)))
+        (result (make-array 6 :element-type 'double-float)))
+    (funcall function given offset result)
+    (coerce result 'list)))
+
+(defun candidate-force-need (candidate plan)
+  "Return the forces and torques that the task of PLAN needs at the grasp centre of CANDIDATE: six
+numbers along X Y Z and about X Y Z."
+  (six-at-centre #'shift-force (%box-force (plan-box plan)) candidate))
+
+(defun candidate-velocity-need (candidate plan)
+  "Return the velocities and rotations that the task of PLAN needs at the grasp centre of CANDIDATE:
+six numbers along X Y Z and about X Y Z."
+  (six-at-centre #'shift-velocity (%box-velocity (plan-box plan)) candidate))
+
+(defun candidate-load (candidate plan)
+  "Return the load of gravity at the grasp centre of CANDIDATE: six numbers along X Y Z and about
+X Y Z."
+  (six-at-centre #'put-load (box-weight (plan-box plan)) candidate))
+
+;;; The best one of a plan
+
+(defun plan-grasp (&optional (plan *plan*))
+  "Return the name of the best grasp of PLAN, a string, or NIL."
+  (and (plan-best (need-plan plan)) (candidate-grasp (plan-best plan))))
+
+(defun plan-matching (&optional (plan *plan*))
+  "Return the matching of the best grasp of PLAN: the names of the faces that N1 N2 O1 O2 A1 A2
+take; or NIL."
+  (and (plan-best (need-plan plan)) (candidate-matching (plan-best plan))))
+
+(defun plan-quality (&optional (plan *plan*))
+  "Return the quality index of the best grasp of PLAN, a double, or NIL."
+  (and (plan-best (need-plan plan)) (candidate-quality (plan-best plan))))
+
