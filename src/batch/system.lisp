@@ -7,20 +7,6 @@
 
 (deftype octets () '(simple-array (unsigned-byte 8) (*)))
 
-(define-condition system-failure (error)
-  ((what :initarg :what :reader system-failure-what)
-   (errno :initarg :errno :reader system-failure-errno))
-  (:report (lambda (condition stream)
-             (format stream "~a: ~a" (system-failure-what condition)
-                     (sb-int:strerror (system-failure-errno condition)))))
-  (:documentation "The system could not do something to a file or a pipe."))
-
-(define-condition read-failure (system-failure) ()
-  (:documentation "Something could not be opened or read."))
-
-(define-condition write-failure (system-failure) ()
-  (:documentation "Something could not be written."))
-
 (defun closed-pipe-p (condition)
   "True if the SYSTEM-FAILURE CONDITION says that nobody reads what is written."
   (eql (system-failure-errno condition) sb-unix:epipe))
@@ -80,25 +66,6 @@
 
 ;;; Files
 
-(defun native-name (file)
-  "Return the name of FILE, a path or a string, as the system has it."
-  (if (stringp file) file (sb-ext:native-namestring file)))
-
-(defconstant +is-directory+ 21 "The error number EISDIR.")
-
-(defun open-descriptor (file)
-  "Open FILE, a string, for reading; return its descriptor."
-  (multiple-value-bind (descriptor errno)
-      (if (directory-p file)
-          (values nil +is-directory+)
-          (sb-unix:unix-open file sb-unix:o_rdonly 0))
-    (or descriptor (error 'read-failure :what "can't be opened" :errno errno))))
-
-(defun directory-p (name)
-  "True if NAME, a string, is that of a directory."
-  (let ((mode (nth-value 3 (sb-unix:unix-stat name))))
-    (and mode (= (logand mode #o170000) #o040000))))
-
 (defun make-directory (name mode)
   "Make the directory NAME, a string, and return NIL; or return the system's error number."
   (multiple-value-bind (made errno) (sb-unix:unix-mkdir name mode)
@@ -151,39 +118,6 @@ can be opened once."
 
 (defun close-descriptor (descriptor)
   (sb-unix:unix-close descriptor))
-
-(defun file-text (file)
-  "Return the text of FILE, a string, or its beginning if it is far too long for the heap.  Octets that
-are not UTF-8 become U+FFFD.  Signals a READ-FAILURE."
-  (let ((descriptor (open-descriptor file))
-        (octets (make-array 65536 :element-type '(unsigned-byte 8)))
-        (end 0))
-    (unwind-protect
-         (loop for new = (read-octets descriptor octets end)
-               until (= new end)
-               do (setf end new)
-                  (when (> end (room-for end))
-                    (return))
-                  (when (= end (length octets))
-                    (setf octets (replace (make-array (* 2 end) :element-type '(unsigned-byte 8))
-                                          octets))))
-      (close-descriptor descriptor))
-    ;; What a signal cut off is not to be judged.
-    (when *signal* (ask-to-end *signal*))
-    (coerce (sb-ext:octets-to-string octets :end end
-                                            :external-format '(:utf-8 :replacement #\ufffd))
-            '(simple-array character (*)))))
-
-(defconstant +octets-of-character+ 150
-  "How much of the heap a character of a record or a file takes at most until it is worked off, what
-copies it when garbage is collected included.")
-
-(defun room-for (count)
-  "Return COUNT, or how many characters the heap has room for if they are fewer."
-  (flet ((most ()
-           (floor (- (sb-ext:dynamic-space-size) (sb-kernel:dynamic-usage)) +octets-of-character+)))
-    (when (> count (most)) (sb-ext:gc :full t))
-    (min count (most))))
 
 (defun terminal-p (descriptor)
   "True if DESCRIPTOR is a terminal."
