@@ -68,3 +68,10 @@
           text))
     (is (search "longer than 65536 characters"
                 (json-failure (format nil "\"~a\"" (repeat 70000 "a")))))))
+
+(test parts-of-an-object-have-places
+  (let ((source (supergrip-data:string-source (format nil "{\"a\": [1,~% {\"b\": 2}]}"))))
+    (supergrip-data:read-json source)
+    (loop for (path . place) in '(((0) 1 2) ((1) 1 7) ((1 0) 1 8) ((1 1 1) 2 8))
+          do (is (equal place (multiple-value-list (supergrip-data:part-place source path)))
+                 "~s" path))))

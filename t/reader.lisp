@@ -152,11 +152,6 @@
     (loop for (path . place) in '((() 1 3) ((0) 1 4) ((0 1) 1 7) ((1) 2 3) ((1 1) 2 4) ((1 1 1 1) 2 10)
                                   ((7) 1 3) ((0 7) 1 4))
           do (is (equal place (multiple-value-list (supergrip-data:part-place source path)))
-                 "~s" path)))
-  (let ((source (supergrip-data:string-source (format nil "{\"a\": [1,~% {\"b\": 2}]}"))))
-    (supergrip-data:read-json source)
-    (loop for (path . place) in '(((0) 1 2) ((1) 1 7) ((1 0) 1 8) ((1 1 1) 2 8))
-          do (is (equal place (multiple-value-list (supergrip-data:part-place source path)))
                  "~s" path))))
 
 (test problems-are-bounded
