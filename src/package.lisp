@@ -39,7 +39,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:difference #:difference-box #:difference-what #:difference-old #:difference-new
    ;; boxes
    #:parse-box #:box-name #:box-size #:box-weight #:box-friction #:box-soft-friction
-   #:box-constrained #:box-force-needed #:box-velocity-needed
+   #:box-constrained #:box-force-needed #:box-velocity-needed #:box-value #:define-box-key
    ;; knowledge
    #:*knowledge* #:load-knowledge #:knowledge #:knowledge-rules #:knowledge-grasps
    #:knowledge-gripper #:knowledge-warnings #:knowledge-rulebase #:grasp-name #:grasp-form

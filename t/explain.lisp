@@ -254,15 +254,14 @@
          (step (* (last-place text) (if (> to from) -1 1)))
          (box (supergrip:plan-box plan)))
     (flet ((chosen (value)
-             (loop for (key count) in '((:force 6) (:velocity 6) (:u 1) (:v 1) (:weight 1))
-                   do (dotimes (index count)
-                        (when (string= (supergrip:change-what change)
-                                       (supergrip::value-name key index))
-                          (return-from chosen
-                            (supergrip::same-choice-p
-                             plan (supergrip::plan
-                                   (supergrip::box-with box key index
-                                                        (coerce value 'double-float))))))))))
+             (dolist (row supergrip::*box-keys*)
+               (dotimes (index 6)
+                 (when (equal (supergrip:change-what change) (supergrip::value-name row index))
+                   (return-from chosen
+                     (supergrip::same-choice-p
+                      plan (supergrip::plan
+                            (supergrip::box-with box row index
+                                                 (coerce value 'double-float))))))))))
       (cond ((chosen back) (list text "does not change the choice"))
             ((supergrip::at-once-p from (supergrip::change-size change))
              (and (chosen 1d-11) (list text "is not at once")))

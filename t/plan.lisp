@@ -12,6 +12,7 @@
   (let ((readers '()))
     (do-external-symbols (symbol :supergrip (sort readers #'string<))
       (when (and (fboundp symbol) (not (macro-function symbol))
+                 (not (eq symbol 'supergrip:box-value)) ; it wants a key
                  (not (typep (fdefinition symbol) 'generic-function))
                  (eql 0 (search prefix (symbol-name symbol))))
         (push symbol readers)))))

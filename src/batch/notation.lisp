@@ -12,36 +12,47 @@ is; CANONICAL-BOX refuses it."
       value))
 
 (defun json-values (key value)
-  "Return what the clause of KEY would hold for VALUE: a list, or VALUE itself where KEY takes an
-array and VALUE is none."
-  (flet ((is (name) (string= key name)))
-    (cond ((is "size") (if (json-array-p value) (json-array-elements value) value))
-          ((is "constrained")
-           (if (json-array-p value)
-               (loop for element in (json-array-elements value)
-                     collect (if (stringp element)
-                                 (canonical-name (string-upcase element))
-                                 element))
-               value))
-          ((json-array-p value)
-           (list (if (member key '("force_needed" "velocity_needed") :test #'string=)
-                     (json-array-elements value)
-                     value)))
+  "Return what the clause of KEY, a string, would hold for VALUE: a list, or VALUE itself where KEY takes
+an array and VALUE is none."
+  (let ((row (key-named key))
+        (elements (and (json-array-p value) (json-array-elements value))))
+    (cond ((null row) (list value))
+          ((not (json-array-p value)) (if (spread-p row) value (list value)))
+          ((eq (box-key-type row) :faces) (mapcar #'json-face elements))
+          ((spread-p row) elements)
+          ((eq (box-key-type row) :needs) (list elements))
           (t (list value)))))
+
+(defun json-face (element)
+  "Return ELEMENT, of an array of faces, as the paper has it: a name."
+  (if (stringp element) (canonical-name (string-upcase element)) element))
 
 ;;; For the reports
 
-(defun json-text (value)
-  "Return VALUE, a part of a description in JSON, as JSON, cut after some 200 characters."
+(defmethod key-name ((notation (eql :json)) row)
+  (format nil "\"~a\"" (box-key-json row)))
+
+(defmethod value-text ((notation (eql :json)) value)
   (cut-text (with-output-to-string (out) (write-json-value value out 0))))
 
-(defun json-clause-text (key values)
-  "Return the member of KEY, a keyword, with what JSON-VALUES made of its value, as JSON."
-  (format nil "\"~a\": ~a" (box-key-json (find-key key))
-          (json-text (cond ((not (listp values)) values)
-                           ((member key '(:size :constrained)) (make-json-array values))
-                           ((listp (first values)) (make-json-array (first values)))
-                           (t (first values))))))
+(defmethod clause-text ((notation (eql :json)) row values)
+  (format nil "~a: ~a" (key-name notation row)
+          (value-text notation (cond ((not (listp values)) values)
+                                     ((spread-p row) (make-json-array values))
+                                     ((listp (first values)) (make-json-array (first values)))
+                                     (t (first values))))))
+
+(defmethod nothing-p ((notation (eql :json)) value)
+  (and (json-literal-p value) (string= (json-literal-text value) "null")))
+
+(defmethod description-text ((notation (eql :json)))
+  (values "an object as {\"size\": [12, 2, 2], \"weight\": 0.2, ...}" "}"))
+
+(defmethod spot-in-clause ((notation (eql :json)) clause row numbers)
+  ;; Keys and values of an object take turns.
+  (cond ((null numbers) (list (* 2 clause)))
+        ((spread-p row) (cons (1+ (* 2 clause)) numbers))
+        (t (cons (1+ (* 2 clause)) (rest numbers)))))
 
 (defun write-json-value (value stream depth)
   "Write VALUE as JSON; of a long or deep one only the beginning."

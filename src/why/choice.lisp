@@ -63,34 +63,25 @@ slot, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
 ;;; What would change the choice.  Each value of the task, the friction and the weight alone is moved
 ;;; away from what it is, until the plan chooses otherwise; then the place is found by halving.
 
-(defun box-value-at (box key index)
-  (ecase key
-    (:force (aref (%box-force box) index))
-    (:velocity (aref (%box-velocity box) index))
-    (:u (%box-u box))
-    (:v (%box-v box))
-    (:weight (%box-weight box))))
+(defun value-at (box row index)
+  "Return the value of the key ROW of BOX, at INDEX if that is six numbers."
+  (let ((value (box-value box (box-key-key row))))
+    (if (arrayp value) (aref value index) value)))
 
-(defun box-with (box key index value)
-  "Return BOX with VALUE for KEY, at INDEX if that is six numbers."
-  (let ((new (copy-structure box)))
-    (flet ((six-with (six)
-             (let ((copy (copy-seq six))) (setf (aref copy index) value) copy)))
-      (ecase key
-        (:force (setf (%box-force new) (six-with (%box-force box))))
-        (:velocity (setf (%box-velocity new) (six-with (%box-velocity box))))
-        (:u (setf (%box-u new) value))
-        (:v (setf (%box-v new) value))
-        (:weight (setf (%box-weight new) value))))
+(defun box-with (box row index value)
+  "Return BOX with VALUE for the key ROW, at INDEX if that is six numbers."
+  (let ((new (copy-structure box))
+        (six (box-value box (box-key-key row))))
+    (when (arrayp six)
+      (let ((copy (copy-seq six)))
+        (setf (aref copy index) value
+              value copy)))
+    (funcall (box-key-writer row) value new)
     new))
 
-(defun value-name (key index)
-  (ecase key
-    (:force (format nil "the force needed ~a" (axis-name index)))
-    (:velocity (format nil "the velocity needed ~a" (axis-name index)))
-    (:u "the friction u")
-    (:v "the torsional friction v")
-    (:weight "the weight")))
+(defun value-name (row index)
+  (format nil "~a~@[ ~a~]" (box-key-words row)
+          (and (eq (box-key-type row) :needs) (axis-name index))))
 
 (defun same-choice-p (a b)
   "True if the plans A and B chose the same grasp in the same matching, or both none."
@@ -106,14 +97,14 @@ slot, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
       (try-alone (plan-alone plan) box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))
       (plan box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))))
 
-(defun find-change (plan key index)
+(defun find-change (plan row index)
   "Return the CHANGE of one value that is nearest to what it is, or NIL if none up to its bound does."
   (let* ((box (plan-box plan))
-         (from (box-value-at box key index))
-         (most (if (member key '(:force :velocity)) 1d0 (max 2d0 (* 4 from))))
+         (from (value-at box row index))
+         (most (if (eq (box-key-type row) :needs) 1d0 (max 2d0 (* 4 from))))
          (step (/ most 50)))
     (labels ((other-p (value)
-               (let ((new (box-with box key index value)))
+               (let ((new (box-with box row index value)))
                  (and (<= 0 value most)
                       (needs-something-p new)
                       (not (same-choice-p plan (plan-like plan new))))))
@@ -123,8 +114,8 @@ slot, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
                                 (loop for value = 0.01d0 then (/ value 10)
                                       when (other-p value) return value)
                                 (short-decimal-beyond same other from #'other-p)))
-                        (new (box-with box key index to)))
-                   (make-change :what (value-name key index) :from from :to to :box new
+                        (new (box-with box row index to)))
+                   (make-change :what (value-name row index) :from from :to to :box new
                                 :plan (plan-like plan new) :size (abs (- other from)))))))
       (loop for k from 1 to 50
             for up = (min most (+ from (* k step)))
@@ -164,9 +155,9 @@ OTHER-P is true, and false of the next one of as many digits towards FROM.  SAME
 
 (defun find-changes (plan)
   "Return the CHANGEs of single values that change the choice of PLAN, the smallest first."
-  (stable-sort (loop for (key count) in '((:force 6) (:velocity 6) (:u 1) (:v 1) (:weight 1))
-                     append (loop for index below count
-                                  for change = (find-change plan key index)
+  (stable-sort (loop for row in (remove nil *box-keys* :key #'box-key-words)
+                     append (loop for index below (if (eq (box-key-type row) :needs) 6 1)
+                                  for change = (find-change plan row index)
                                   when change collect change))
                #'< :key #'change-size))
 

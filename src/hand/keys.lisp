@@ -1,0 +1,206 @@
+;;;; keys.lisp -- the keys of a box description, one row each.
+;;;;
+;;;; A row says what a key takes.  Parsing, both notations, messages and what EXPLAIN-BEST varies follow
+;;;; from it.
+
+(in-package :supergrip)
+
+(defstruct box-key
+  "A key of a box description.  KEY is a keyword, JSON its name in JSON.  TYPE says what follows it:
+  :TEXT          a string, or nothing
+  :NUMBER        a number from 0
+  (:NUMBERS n)   N numbers above 0
+  :NEEDS         a list of six numbers from 0 to 1
+  :FACES         faces, any number of them.
+TAKES says so in words, EXAMPLE is a list of what may follow.  OPTIONAL is true if a box may lack it.
+READER and WRITER are functions of a box, and of a new value and a box.  WORDS name a value that may be
+varied, \"the weight\", NIL if none may."
+  key json type takes example optional reader writer words)
+
+(defvar *box-keys* '() "The rows that DEFINE-BOX-KEY has defined, in order.")
+
+(defun add-box-key (row)
+  "Put ROW into the place of the one of its key, or last."
+  (let ((old (find (box-key-key row) *box-keys* :key #'box-key-key)))
+    (setf *box-keys* (if old (substitute row old *box-keys*) (append *box-keys* (list row))))))
+
+(defmacro define-box-key (key type takes example
+                          &key slot optional words
+                            (json (substitute #\_ #\- (string-downcase key))))
+  "Define the KEY, a keyword, of box descriptions, which takes what TYPE says (see BOX-KEY), TAKES in
+words; EXAMPLE is a list of what may follow it.  SLOT is the accessor of its own slot; without one the
+value is among the others of the box, for BOX-VALUE."
+  (let ((place (if slot `(,slot box) `(getf (%box-others box) ,key))))
+    `(add-box-key
+      (make-box-key :key ,key :json ,json :type ',type :takes ,takes :example ',example
+                    :optional ,optional :words ,words
+                    :reader (lambda (box) ,place)
+                    :writer (lambda (value box) (setf ,place value))))))
+
+(define-box-key :size (:numbers 3) "three sizes in cm, above 0" (12 2 2)
+  :slot %box-size)
+(define-box-key :weight :number "one number from 0, in finger forces" (0.2d0)
+  :slot %box-weight :words "the weight")
+(define-box-key :u :number "one coefficient of friction from 0" (0.8d0)
+  :slot %box-u :words "the friction u")
+(define-box-key :v :number "one coefficient of torsional friction from 0, in cm" (0.2d0)
+  :slot %box-v :words "the torsional friction v")
+(define-box-key :constrained :faces "faces among X1 X2 Y1 Y2 Z1 Z2, or nothing" (:z2 :x1)
+  :slot %box-constrained)
+(define-box-key :force-needed :needs "a list of six numbers from 0 to 1"
+  ((1 0.8d0 0.8d0 0.3d0 1 1))
+  :slot %box-force :words "the force needed")
+(define-box-key :velocity-needed :needs "a list of six numbers from 0 to 1"
+  ((0 0.8d0 0.8d0 0 0.8d0 0.8d0))
+  :slot %box-velocity :words "the velocity needed")
+(define-box-key :name :text "one string" ("pencil")
+  :slot %box-name :optional t)
+
+(defun find-key (key)
+  (find key *box-keys* :key #'box-key-key))
+
+(defun box-value (box key)
+  "Return what BOX gives for KEY, a keyword: as the description has it, or NIL.  For keys that
+DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles."
+  (funcall (box-key-reader (find-key key)) box))
+
+(defun spread-p (row)
+  "True if the values of the key ROW follow it one by one; in JSON they are an array."
+  (or (eq (box-key-type row) :faces) (consp (box-key-type row))))
+
+;;; Notations.  A description is checked in the paper's form; messages speak as it was written.
+
+(defvar *notation* :lisp "How the description being checked was written: a keyword, as :LISP.")
+
+(defgeneric key-name (notation row)
+  (:documentation "Return the name of the key ROW as NOTATION has it.")
+  (:method (notation row)
+    (declare (ignore notation))
+    (symbol-name (box-key-key row))))
+
+(defgeneric value-text (notation value)
+  (:documentation "Return VALUE as NOTATION has it, cut after some 200 characters.")
+  (:method (notation value)
+    (declare (ignore notation))
+    (form-text value)))
+
+(defgeneric clause-text (notation row values)
+  (:documentation "Return the part of a description that gives VALUES for the key ROW.")
+  (:method (notation row values)
+    (declare (ignore notation))
+    (form-text (cons (box-key-key row) values))))
+
+(defgeneric nothing-p (notation value)
+  (:documentation "True if VALUE stands for nothing, as in the name of a box without one.")
+  (:method (notation value)
+    (declare (ignore notation))
+    (or (null value) (name= value "NIL"))))
+
+(defgeneric description-text (notation)
+  (:documentation "Return what a box description is, with its beginning, and what closes it.")
+  (:method (notation)
+    (declare (ignore notation))
+    (values "a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)" ")")))
+
+(defgeneric spot-in-clause (notation clause row numbers)
+  (:documentation "Return where in a description a part of the clause numbered CLAUSE, that of the key
+ROW, begins: NUMBERS are that of a value and of an element of it; without any, the clause itself.")
+  (:method (notation clause row numbers)
+    (declare (ignore notation row))
+    (if numbers (list* clause (1+ (first numbers)) (rest numbers)) (list clause))))
+
+(defun key-takes (row)
+  "Return what the key ROW takes, with an example."
+  (format nil "~a: ~a" (box-key-takes row)
+          (clause-text *notation* row (box-key-example row))))
+
+;;; Where a part stands: for the reports, a list of numbers that PART-PLACE understands.
+
+(defvar *path* '() "Where in its record the description being checked is: '() or inside QUOTE and SETQ.")
+(defvar *clause* 0 "The number, from 0, of the clause being checked.")
+
+(defun clause-spot ()
+  "Return where the clause being checked begins."
+  (append *path* (spot-in-clause *notation* *clause* nil '())))
+
+(defun value-spot (row &rest numbers)
+  "Return where a part of the value of the key ROW in the clause being checked begins: as NUMBERS say, a
+value, and an element of that."
+  (append *path* (spot-in-clause *notation* *clause* row numbers)))
+
+;;; Values
+
+(defun refuse-value (row values &optional (spot (clause-spot)))
+  (complain spot "~a is not valid: ~a takes ~a" (clause-text *notation* row values)
+            (key-name *notation* row) (key-takes row)))
+
+(defun number-in (value least most)
+  "Return VALUE as a double if it is a real from LEAST to MOST (NIL for no bound), or NIL."
+  (let ((number (and (realp value) (as-double value))))
+    (and number (>= number least) (or (null most) (<= number most)) number)))
+
+(defun number-list (row list count least most values &rest spot)
+  "Return LIST, COUNT numbers from LEAST to MOST, as an array of doubles, or complain.  SPOT are the
+numbers of the place of LIST among VALUES, for VALUE-SPOT."
+  (let ((numbers (make-array count :element-type 'double-float))
+        (place 0))
+    (dolist (value (and (listp list) list))
+      (let ((number (and (< place count) (number-in value least most))))
+        (unless number
+          (return-from number-list
+            (refuse-value row values (apply #'value-spot row (append spot (list place))))))
+        (setf (aref numbers place) number)
+        (incf place)))
+    (if (= place count)
+        numbers
+        (refuse-value row values))))
+
+(defgeneric parse-values (type row values)
+  (:documentation "Return the value of the key ROW, which takes what TYPE says, that VALUES, the rest of
+its clause, give.  NIL after a complaint."))
+
+(defmethod parse-values ((type (eql :text)) row values)
+  (cond ((and values (null (rest values)) (nothing-p *notation* (first values))) nil)
+        ((rest values) (refuse-value row values))
+        ((stringp (first values)) (first values))
+        (t (refuse-value row values (value-spot row 0)))))
+
+(defmethod parse-values ((type (eql :number)) row values)
+  (cond ((rest values) (refuse-value row values))
+        ((number-in (first values) 0 nil))
+        (t (refuse-value row values (value-spot row 0)))))
+
+(defmethod parse-values ((type cons) row values)
+  (destructuring-bind (kind count) type
+    (assert (eq kind :numbers))
+    (let ((numbers (number-list row values count 0 nil values)))
+      (cond ((null numbers) nil)
+            ((every #'plusp numbers) numbers)
+            (t (refuse-value row values (value-spot row (position-if-not #'plusp numbers))))))))
+
+(defmethod parse-values ((type (eql :needs)) row values)
+  (if (rest values)
+      (refuse-value row values)
+      (number-list row (first values) 6 0 1 values 0)))
+
+(defmethod parse-values ((type (eql :faces)) row values)
+  (let ((set 0) (good t))
+    (loop for value in values
+          for number from 0
+          do (let ((face (and (namep value) (surface-index value))))
+               (cond ((null face)
+                      (setf good (complain (value-spot row number)
+                                           "~a is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 ~
+                                            Z2~:[~;, without parentheses of their own~]"
+                                           (value-text *notation* value) (consp value))))
+                     ((logbitp face set)
+                      (setf good (complain (value-spot row number) "~a is constrained twice"
+                                           (value-text *notation* value))))
+                     (t (setf set (logior set (ash 1 face)))))))
+    (and good set)))
+
+(defun key-value (row values)
+  "Return the value of the key ROW that VALUES, the rest of its clause, give.  NIL after a complaint."
+  (if (listp values)
+      (parse-values (box-key-type row) row values)
+      (refuse-value row values)))
