@@ -48,7 +48,8 @@
                              (:file "trace")
                              (:file "repl")
                              (:file "edit")
-                             (:file "compare")))
+                             (:file "compare")
+                             (:file "former-names")))
                (:static-file "boot.lisp"))
   :in-order-to ((test-op (test-op "supergrip/test"))))
 

@@ -19,8 +19,8 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:box #:forward-chain #:possible-grasps #:*plan*
    ;; asking why
    #:how #:why-not #:explain-best #:describe-rule #:describe-grasp
-   #:explain-fact #:explain-refusal #:advise #:write-answer
-   #:derivation #:derivation-p #:derivation-predicate #:derivation-packed #:derivation-rule
+   #:explain-fact #:explain-why-not #:explain-choice #:write-answer
+   #:derivation #:derivation-p #:derivation-predicate #:derivation-faces #:derivation-rule
    #:derivation-binding #:derivation-parts #:derivation-note
    #:assumption #:unknown-fact #:unknown-fact-refusals
    #:refusal #:refusal-rule #:refusal-fired #:refusal-stop #:refusal-number #:refusal-clause
@@ -28,8 +28,8 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:not-chosen #:not-chosen-kind #:not-chosen-text #:not-chosen-grasp #:not-chosen-matching
    #:not-chosen-candidates #:not-chosen-refusals #:not-chosen-outcome #:not-chosen-margin
    #:not-chosen-faces
-   #:advice #:advice-sentence #:advice-force #:advice-velocity #:advice-runner-up #:advice-margin
-   #:advice-changes #:limit #:limit-axis #:limit-has #:limit-needs #:limit-radius
+   #:choice #:choice-sentence #:choice-force #:choice-velocity #:choice-runner-up #:choice-margin
+   #:choice-changes #:limit #:limit-axis #:limit-has #:limit-needs #:limit-radius
    #:change #:change-words #:change-what #:change-from #:change-to #:change-box #:change-plan
    ;; watching
    #:*trace-level* #:trace-rule #:untrace-rule #:trace-grasp #:untrace-grasp
@@ -61,6 +61,10 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:knowledge-error #:knowledge-warning #:knowledge-warning-problems #:retry
    #:no-box-error #:no-plan-error #:no-grasp-error #:no-rule-error #:no-fact-error
    #:gamma-error #:argument-error
+   ;; names of 0.1.0
+   #:explain-refusal #:advise #:advice #:advice-sentence #:advice-force #:advice-velocity
+   #:advice-runner-up #:advice-margin #:advice-changes #:derivation-packed
+   ;; problems
    #:problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text))
 

@@ -28,32 +28,32 @@ Returns what the rules said, a list of strings, and the stop."
         do (supergrip-chainer:remember
             memory
             (supergrip-chainer:find-predicate rulebase (list (symbol-name word)))
-            (supergrip-chainer:pack (mapcar #'supergrip-chainer:surface-index faces))))
+            (supergrip-chainer:pack (mapcar #'supergrip-chainer:face-index faces))))
   (let ((stop (supergrip-chainer:run-rules rulebase memory)))
     (values (loop for event in (reverse (supergrip-chainer:memory-log memory))
                   collect (event-text event rulebase))
             stop)))
 
 (defun event-text (event rulebase)
-  (multiple-value-bind (predicate packed) (supergrip-chainer:event-fact event rulebase)
+  (multiple-value-bind (predicate face-list) (supergrip-chainer:event-fact event rulebase)
     (format nil "~a: ~a~{ ~a~}"
             (supergrip-chainer:rule-name (supergrip-chainer:event-rule event rulebase))
             (supergrip-chainer:predicate-text predicate)
-            (supergrip-chainer:pack-names packed))))
+            (supergrip-chainer:face-list-names face-list))))
 
 (defparameter *pairs* '((opposed z2 z1) (opposed y2 y1) (opposed x2 x1)))
 
 (test surfaces-pack
   (is (equal '("Z2" "X1" "Y1")
-             (supergrip-chainer:pack-names
-              (supergrip-chainer:pack (mapcar #'supergrip-chainer:surface-index '(z2 x1 y1))))))
+             (supergrip-chainer:face-list-names
+              (supergrip-chainer:pack (mapcar #'supergrip-chainer:face-index '(z2 x1 y1))))))
   (is (equal '("Z2" "Z1" "Y2" "Y1" "X2" "X1")
-             (supergrip-chainer:pack-names (supergrip-chainer:pack '(0 1 2 3 4 5)))))
+             (supergrip-chainer:face-list-names (supergrip-chainer:pack '(0 1 2 3 4 5)))))
   (loop for (name axis sign) in '((x1 0 1) (x2 0 -1) (y1 1 1) (y2 1 -1) (z1 2 1) (z2 2 -1))
-        for face = (supergrip-chainer:surface-index name)
-        do (is (= axis (supergrip-chainer:surface-axis face)))
-           (is (= sign (supergrip-chainer:surface-sign face)))
-           (is (= axis (supergrip-chainer:surface-axis (supergrip-chainer:opposite face))))
+        for face = (supergrip-chainer:face-index name)
+        do (is (= axis (supergrip-chainer:face-axis face)))
+           (is (= sign (supergrip-chainer:face-sign face)))
+           (is (= axis (supergrip-chainer:face-axis (supergrip-chainer:opposite face))))
            (is (/= face (supergrip-chainer:opposite face)))))
 
 (test facts-are-matched-in-order-and-in-all-orders

@@ -196,13 +196,13 @@
     (dolist (fact (plan-facts plan))
       (let ((tree (supergrip:explain-fact fact plan))
             (memory (supergrip::new-memory (supergrip:plan-knowledge plan))))
-        (supergrip::start-attempt (supergrip-chainer:memory-client memory)
+        (supergrip::start-workspace (supergrip-chainer:memory-client memory)
                                   (supergrip:plan-box plan) 0.5d0)
         (dolist (leaf (leaf-facts tree))
           (unless (supergrip-chainer:predicate-given (supergrip:derivation-predicate leaf))
             (return-from how-fault (list fact "a leaf that is no input")))
           (supergrip-chainer:remember memory (supergrip:derivation-predicate leaf)
-                                      (supergrip:derivation-packed leaf)))
+                                      (supergrip::derivation-face-list leaf)))
         (dolist (rule (sort (remove-duplicates (tree-rules tree)) #'<
                             :key #'supergrip-chainer:rule-index))
           (dolist (binding (supergrip-chainer:rule-bindings rule memory))
@@ -210,7 +210,7 @@
               (when (supergrip-chainer:action-predicate action)
                 (funcall (supergrip-chainer:action-function action) memory binding)))))
         (unless (supergrip-chainer:recall memory (supergrip:derivation-predicate tree)
-                                          (supergrip:derivation-packed tree))
+                                          (supergrip::derivation-face-list tree))
           (return-from how-fault (list fact "not derived from its leaves")))))))
 
 (test every-fact-follows-from-the-leaves-of-its-tree
@@ -222,7 +222,7 @@
                (let ((plan (supergrip::plan box)))
                  (dolist (grasp (supergrip:knowledge-grasps supergrip:*knowledge*))
                    (let* ((name (supergrip::grasp-name grasp))
-                          (answer (supergrip:explain-refusal name nil plan)))
+                          (answer (supergrip:explain-why-not name nil plan)))
                      (when (or (string= "" (supergrip:not-chosen-text answer))
                                (not (eq (eq :chosen (supergrip:not-chosen-kind answer))
                                         (equal name (supergrip:plan-grasp plan))))
@@ -232,8 +232,8 @@
              (random-boxes 2000 12)))))
 
 (test advice-on-a-grasp-alone-tries-it-alone
-  (let ((changes (supergrip:advice-changes
-                  (supergrip:advise (supergrip:try-grasp "PINCH-3-CORNER" (paper-box))))))
+  (let ((changes (supergrip:choice-changes
+                  (supergrip:explain-choice (supergrip:try-grasp "PINCH-3-CORNER" (paper-box))))))
     (is (notany (lambda (change) (equal "PINCH-3-PARALLEL"
                                         (supergrip:plan-grasp (supergrip:change-plan change))))
                 changes))))
@@ -249,7 +249,7 @@
   "Return what is wrong with CHANGE of PLAN, as it is printed."
   (let* ((from (supergrip:change-from change))
          (to (supergrip:change-to change))
-         (text (supergrip::figure-exact to))
+         (text (supergrip::exact-number-text to))
          (back (rational (first (read-text text))))
          (step (* (last-place text) (if (> to from) -1 1)))
          (box (supergrip:plan-box plan)))
@@ -273,7 +273,7 @@
   (is (null (first-fault
              (lambda (box)
                (let* ((plan (supergrip::plan box))
-                      (changes (supergrip:advice-changes (supergrip:advise plan)))
+                      (changes (supergrip:choice-changes (supergrip:explain-choice plan)))
                       (sizes (mapcar #'supergrip::change-size changes)))
                  (or (loop for change in changes thereis (change-fault plan change))
                      (and sizes (not (apply #'<= sizes)) sizes))))
@@ -293,16 +293,16 @@
   (loop for (number text) in '((999999999.03d0 "1e+9") (0.0625d0 "0.0625") (0.00123456d0 "0.001235")
                                (9999.96d0 "10000") (1234567.8d0 "1234568") (0 "0") (-0.07071d0 "-0.07071")
                                (1d-12 "1e-12") (1d300 "1e+300") (0.99996d0 "1") (1.2346d-5 "1.235e-5"))
-        do (is (equal text (supergrip::figure number))))
+        do (is (equal text (supergrip::number-text number))))
   (loop for (numbers . texts) in '(((0.6d0 0.59999d0) "0.6" "0.59999") ((12 12) "12" "12")
                                    ((0.70710678118d0 0.7071067811865476d0)
                                     "0.70710678118" "0.70710678119"))
-        do (is (equal texts (apply #'supergrip::figures numbers))))
+        do (is (equal texts (apply #'supergrip::number-texts numbers))))
   (let ((state (sb-ext:seed-random-state 5)))
     (is (null (loop repeat 2000
                     for number = (* (random 10d0 state) (expt 10d0 (- (random 40 state) 20)))
                     unless (eql number (supergrip-data:as-double
-                                        (first (read-text (supergrip::figure-exact number)))))
+                                        (first (read-text (supergrip::exact-number-text number)))))
                       collect number)))))
 
 (test a-radius-is-told-in-plain-words

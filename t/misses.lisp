@@ -68,9 +68,9 @@
   "Return a candidate for BOX whose faults are not what TRY found."
   (dolist (grasp (supergrip:knowledge-grasps supergrip:*knowledge*))
     (let ((plan (supergrip:try-grasp grasp box)))
-      (supergrip::with-attempt (attempt plan)
+      (supergrip::with-workspace (workspace plan)
         (dolist (candidate (supergrip:plan-candidates plan))
-          (let ((faults (supergrip::candidate-faults candidate attempt)))
+          (let ((faults (supergrip::candidate-faults candidate workspace)))
             (unless (eq (null faults) (not (eq :conditions (supergrip:candidate-outcome candidate))))
               (return-from conditions-fault (princ-to-string candidate)))
             (when (and faults

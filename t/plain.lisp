@@ -65,7 +65,7 @@
   (let ((plan (pencil-plan)))
     (flet ((best-p (name &optional matching)
              (eq :chosen (supergrip:not-chosen-kind
-                          (supergrip:explain-refusal name matching plan)))))
+                          (supergrip:explain-why-not name matching plan)))))
       (is (best-p (supergrip:plan-grasp plan) (supergrip:plan-matching plan)))
       (is (best-p "pinch-3-parallel" "y2 y1 x2 x1 z2 z1"))
       (is (best-p :pinch-3-parallel "(Y2 Y1 X2 X1 Z2 Z1)"))
@@ -109,11 +109,11 @@
     (is (search "a circular one" (error-text (supergrip:how circle plan))))
     (dolist (matching (list circle '(x1 x2 . y1) 7 "x1 (" '(1 2 3 4 5 6)))
       (is (eq :no-matching (supergrip:not-chosen-kind
-                            (supergrip:explain-refusal 'pinch-3-parallel matching plan)))))))
+                            (supergrip:explain-why-not 'pinch-3-parallel matching plan)))))))
 
 (test the-current-box-and-plan-are-what-is-meant
   (let ((supergrip::*box* (supergrip:parse-box (paper-box))) (supergrip:*plan* (pencil-plan)))
-    (is (equal "PINCH-3-CORNER" (supergrip::plan-alone (supergrip:try-grasp "PINCH-3-CORNER"))))
+    (is (equal "PINCH-3-CORNER" (supergrip::plan-only-grasp (supergrip:try-grasp "PINCH-3-CORNER"))))
     (is (= 0.25d0 (supergrip:plan-gamma (supergrip:try-grasp 'pinch-3-corner :gamma 1/4))))
     (is (= 6 (length (supergrip:plan-candidates)) (length (supergrip:plan-possible))))
     (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp)))

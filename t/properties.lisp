@@ -13,12 +13,12 @@
   (let ((rulebase (supergrip::knowledge-rulebase (supergrip:plan-knowledge plan))))
     (loop for event in (supergrip:plan-log plan)
           unless (supergrip::candidate-p event)
-            collect (multiple-value-bind (predicate packed)
+            collect (multiple-value-bind (predicate face-list)
                         (supergrip-chainer:event-fact event rulebase)
                       (cons (supergrip-chainer:rule-name
                              (supergrip-chainer:event-rule event rulebase))
                             (append (supergrip-chainer:predicate-words predicate)
-                                    (let ((names (supergrip-chainer:pack-names packed)))
+                                    (let ((names (supergrip-chainer:face-list-names face-list)))
                                       (and names (list names)))))))))
 
 (defun candidate-difference (candidate plan oracle)
@@ -170,7 +170,7 @@
            (append (turn-list (subseq six 0 3) matching) (turn-list (subseq six 3) matching)))
          (turn-face (face)
            (let ((slot (position face '(x1 x2 y1 y2 z1 z2))))
-             (intern (supergrip-chainer:surface-name
+             (intern (supergrip-chainer:face-name
                       (svref (supergrip::matching-faces matching) slot))
                      :supergrip-test))))
     (loop for (key . values) in box
@@ -275,10 +275,10 @@
   (let ((step (find-if (lambda (step) (find step candidates :key #'supergrip:candidate-outcome))
                        (reverse supergrip::+steps+)))
         (best nil) (least nil))
-    (supergrip::with-attempt (attempt plan)
+    (supergrip::with-workspace (workspace plan)
       (dolist (candidate candidates best)
         (when (eq step (supergrip:candidate-outcome candidate))
-          (let ((shortfalls (supergrip::shortfalls candidate attempt nil)))
+          (let ((shortfalls (supergrip::shortfalls candidate workspace nil)))
             (when (or (null best) (supergrip::misses-less-p shortfalls least))
               (setf best candidate least shortfalls))))))))
 
@@ -293,7 +293,7 @@
                         (candidates (reduce #'append (mapcar #'supergrip:plan-rejected plans))))
                    (incf open (count :open candidates :key #'supergrip:candidate-outcome))
                    (and candidates
-                        (not (eq (supergrip::nearest-of candidates (first plans))
+                        (not (eq (supergrip::nearest-miss candidates (first plans))
                                  (plain-nearest candidates (first plans)))))))
                (random-boxes 5000 31))))
     (is (> open 500) "only ~d open candidates" open)))

@@ -52,7 +52,7 @@
     (when predicate
       (supergrip-chainer:remember
        memory predicate
-       (supergrip-chainer:pack (mapcar #'supergrip-chainer:surface-index faces))))))
+       (supergrip-chainer:pack (mapcar #'supergrip-chainer:face-index faces))))))
 
 (defun fire-alone (name facts)
   "Run the shipped rule NAME alone on FACTS.  Returns what it did, a list as in *RULE-CASES*."
@@ -64,7 +64,7 @@
                       (supergrip::input-predicates) :client graspbase)))
          (memory (supergrip-chainer:make-memory
                   rulebase
-                  (supergrip::start-attempt (supergrip::make-attempt graspbase)
+                  (supergrip::start-workspace (supergrip::make-workspace graspbase)
                                             (supergrip:parse-box *rule-box*) 0.5d0))))
     (dolist (fact facts)
       (put-fact fact rulebase memory))

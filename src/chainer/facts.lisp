@@ -23,7 +23,7 @@ its rule base.  GIVEN is true if the input provides it."
 ;;; What is remembered of a predicate is kept twice: as bits, to test, and in order, to walk.
 
 (deftype relations () '(simple-array (unsigned-byte 64) (*)))
-(deftype packs () '(simple-array (unsigned-byte 32) (*)))
+(deftype face-lists () '(simple-array (unsigned-byte 32) (*)))
 
 (defconstant +most-facts+ 20
   "How many facts a predicate can have: there are 20 sets of three faces, and fewer of any other
@@ -31,20 +31,20 @@ number.")
 
 (defstruct (memory (:constructor %make-memory))
   "A working memory.  RELATIONS holds, for each predicate, the bits of what is remembered (see
-FACT-BITS).  FACTS holds the packed lists in the order in which they were remembered, those of each
+FACT-BITS).  FACTS holds the face lists in the order in which they were remembered, those of each
 predicate from +MOST-FACTS+ times its index on, and COUNTS how many it has.  USED holds the indices
 of the predicates that have facts, USED-COUNT of them.  AWAKE has a bit for each rule that may fire,
 and SLEEPERS, for each predicate, the list of the rules that its first fact wakes (see PUT-TO-SLEEP).
 BINDINGS holds the FOUND bindings of the rule being run.  LOG holds the events of a run, the newest
 first.  CLIENT is whatever the actions of the lower level need."
   (relations nil :type relations)
-  (facts nil :type packs)
-  (counts nil :type packs)
-  (used nil :type packs)
+  (facts nil :type face-lists)
+  (counts nil :type face-lists)
+  (used nil :type face-lists)
   (used-count 0 :type fixnum)
   (awake nil :type simple-bit-vector)
   (sleepers nil :type simple-vector)
-  (bindings nil :type packs)
+  (bindings nil :type face-lists)
   (found 0 :type fixnum)
   (log '() :type list)
   (client nil))
@@ -55,28 +55,28 @@ first.  CLIENT is whatever the actions of the lower level need."
       (format stream "~d predicate~:p with facts" (memory-used-count memory)))))
 
 (declaim (inline fact-bits known-p))
-(defun fact-bits (arity packed)
-  "Return the bits that stand for the faces of PACKED, in any order, among the facts of a predicate
+(defun fact-bits (arity face-list)
+  "Return the bits that stand for the faces of FACE-LIST, in any order, among the facts of a predicate
 of ARITY: for one face that of the face, so that six bits are the set of them; for two, a and b, the
 bits 6a+b and 6b+a, so that the six bits from 6a are the set of the partners of a; for more the bit
 whose number is the set."
-  (declare (type (integer 0 6) arity) (type packed packed))
+  (declare (type (integer 0 6) arity) (type face-list face-list))
   (the (unsigned-byte 64)
        (case arity
          (0 1)
-         (1 (pack-mask packed))
-         (2 (let ((a (pack-ref packed 0)) (b (pack-ref packed 1)))
-              (declare (type surface a b))
+         (1 (face-list-mask face-list))
+         (2 (let ((a (face-list-ref face-list 0)) (b (face-list-ref face-list 1)))
+              (declare (type face a b))
               (logior (ash 1 (+ (* 6 a) b)) (ash 1 (+ (* 6 b) a)))))
-         (t (ash 1 (pack-mask packed))))))
+         (t (ash 1 (face-list-mask face-list))))))
 
 (defun known-p (memory index bits)
   (declare (type memory memory) (fixnum index) (type (unsigned-byte 64) bits))
   (logtest bits (aref (memory-relations memory) index)))
 
-(defun recall (memory predicate packed)
-  "True if MEMORY holds that PREDICATE is true of the faces of PACKED, in any order."
-  (known-p memory (predicate-index predicate) (fact-bits (predicate-arity predicate) packed)))
+(defun recall (memory predicate face-list)
+  "True if MEMORY holds that PREDICATE is true of the faces of FACE-LIST, in any order."
+  (known-p memory (predicate-index predicate) (fact-bits (predicate-arity predicate) face-list)))
 
 (declaim (inline wake-rules put-fact))
 (defun wake-rules (memory index)
@@ -87,32 +87,32 @@ whose number is the set."
   (dolist (rule (svref (memory-sleepers memory) index))
     (setf (sbit (memory-awake memory) rule) 1)))
 
-(defun put-fact (memory predicate packed)
-  "As REMEMBER; PACKED must hold as many faces as the lists of PREDICATE have."
-  (declare (type memory memory) (type predicate predicate) (type packed packed))
+(defun put-fact (memory predicate face-list)
+  "As REMEMBER; FACE-LIST must hold as many faces as the lists of PREDICATE have."
+  (declare (type memory memory) (type predicate predicate) (type face-list face-list))
   (let* ((index (predicate-index predicate))
-         (bits (fact-bits (predicate-arity predicate) packed))
+         (bits (fact-bits (predicate-arity predicate) face-list))
          (count (aref (memory-counts memory) index)))
     (unless (known-p memory index bits)
       (setf (aref (memory-relations memory) index)
             (logior (aref (memory-relations memory) index) bits)
-            (aref (memory-facts memory) (+ (* +most-facts+ index) count)) packed
+            (aref (memory-facts memory) (+ (* +most-facts+ index) count)) face-list
             (aref (memory-counts memory) index) (1+ count))
       (when (zerop count)
         (wake-rules memory index))
       t)))
 
-(defun remember (memory predicate packed)
-  "Put into MEMORY that PREDICATE is true of the faces of PACKED, a list of as many faces as those of
+(defun remember (memory predicate face-list)
+  "Put into MEMORY that PREDICATE is true of the faces of FACE-LIST, a list of as many faces as those of
 PREDICATE have.  True if it was not there."
-  (declare (type packed packed))
-  (assert (= (pack-count packed) (predicate-arity predicate)) (packed)
+  (declare (type face-list face-list))
+  (assert (= (face-list-count face-list) (predicate-arity predicate)) (face-list)
           "~a takes ~d different surfaces, not those of ~a" (predicate-text predicate)
-          (predicate-arity predicate) (pack-names packed))
-  (put-fact memory predicate packed))
+          (predicate-arity predicate) (face-list-names face-list))
+  (put-fact memory predicate face-list))
 
 (defmacro do-facts ((fact memory index) &body body)
-  "Run BODY with FACT each packed list of the predicate INDEX, in the order in which they were
+  "Run BODY with FACT each face-list list of the predicate INDEX, in the order in which they were
 remembered.  BODY must remember nothing."
   (let ((start (gensym)) (place (gensym)))
     `(let ((,start (* +most-facts+ ,index)))
@@ -120,18 +120,18 @@ remembered.  BODY must remember nothing."
        (loop for ,place of-type (unsigned-byte 32)
                from ,start below (+ ,start (aref (memory-counts ,memory) ,index))
              do (let ((,fact (aref (memory-facts ,memory) ,place)))
-                  (declare (type packed ,fact))
+                  (declare (type face-list ,fact))
                   ,@body)))))
 
 (defun facts (memory predicate)
-  "Return the packed lists of PREDICATE in MEMORY, in the order in which they were remembered."
+  "Return the face lists of PREDICATE in MEMORY, in the order in which they were remembered."
   (let ((list '()))
     (do-facts (fact memory (predicate-index predicate))
       (push fact list))
     (nreverse list)))
 
 (deftype saved-facts ()
-  "What a memory holds, in one vector: packed lists, and above each the index of its predicate."
+  "What a memory holds, in one vector: face lists, and above each the index of its predicate."
   '(simple-array (unsigned-byte 62) (*)))
 
 (defun save-facts (memory)
@@ -162,4 +162,4 @@ all its lists of surfaces, as strings."
         for facts = (facts memory predicate)
         when facts
           collect (append (predicate-words predicate)
-                          (and (plusp (predicate-arity predicate)) (mapcar #'pack-names facts)))))
+                          (and (plusp (predicate-arity predicate)) (mapcar #'face-list-names facts)))))

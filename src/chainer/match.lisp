@@ -1,6 +1,6 @@
 ;;;; match.lisp -- an antecedent becomes a function that finds all its bindings.
 ;;;;
-;;;; How it works.  A binding is a packed list of faces, variable j at place j, so matching
+;;;; How it works.  A binding is a face list of faces, variable j at place j, so matching
 ;;;; allocates nothing.  An antecedent becomes a chain of closures.  Each is called with the memory
 ;;;; and the binding so far, and calls the next once for each way in which its part can be met; the
 ;;;; last one collects the binding.  Which variables are bound where is known when the rule is read.
@@ -24,7 +24,7 @@
 
 (in-package :supergrip-chainer)
 
-(deftype matcher () '(function (memory packed) t))
+(deftype matcher () '(function (memory face-list) t))
 (deftype filters () '(simple-array (unsigned-byte 62) (*)))
 
 ;;; From clauses to matchers
@@ -62,7 +62,7 @@
   (remove-if (lambda (element) (member element others)) list))
 
 (defun collect-binding (memory binding)
-  (declare (type memory memory) (type packed binding))
+  (declare (type memory memory) (type face-list binding))
   (let ((bindings (memory-bindings memory))
         (count (memory-found memory)))
     (when (= count (length bindings))
@@ -76,13 +76,13 @@
 (declaim (inline face-bit only-face several-p))
 (defun face-bit (binding place)
   "Return the set of the one face at PLACE of BINDING."
-  (declare (type packed binding) (type (integer 0 5) place))
-  (the (unsigned-byte 6) (ash 1 (the surface (pack-ref binding place)))))
+  (declare (type face-list binding) (type (integer 0 5) place))
+  (the (unsigned-byte 6) (ash 1 (the face (face-list-ref binding place)))))
 
 (defun only-face (set)
   "Return the one face of SET."
   (declare (type (integer 1 63) set))
-  (the surface (1- (integer-length set))))
+  (the face (1- (integer-length set))))
 
 (defun several-p (set)
   "True if SET has more than one face."
@@ -122,8 +122,8 @@
 (declaim (inline allowed-faces))
 (defun allowed-faces (memory binding filters)
   "Return the set of the faces that are not in BINDING and that all FILTERS leave."
-  (declare (type memory memory) (type packed binding) (type filters filters))
-  (let ((set (logxor 63 (pack-mask binding)))
+  (declare (type memory memory) (type face-list binding) (type filters filters))
+  (let ((set (logxor 63 (face-list-mask binding)))
         (relations (memory-relations memory)))
     (declare (type (unsigned-byte 6) set))
     (loop for filter across filters
@@ -152,12 +152,12 @@
   (if (clause-variables clause)
       (compile-variable-test clause next)
       (let ((bits (fact-bits (length (clause-terms clause))
-                             (pack (mapcar (lambda (term) (- -1 term)) (clause-terms clause)))))
+                             (make-face-list (mapcar (lambda (term) (- -1 term)) (clause-terms clause)))))
             (index (predicate-index (clause-predicate clause)))
             (wanted (not (clause-negated clause))))
         (declare (function next))
         (lambda (memory binding)
-          (declare (type memory memory) (type packed binding))
+          (declare (type memory memory) (type face-list binding))
           (when (eq wanted (known-p memory index bits))
             (funcall next memory binding))))))
 
@@ -171,7 +171,7 @@
          (variables (clause-variables clause)))
     (declare (function next))
     (lambda (memory binding)
-      (declare (type memory memory) (type packed binding))
+      (declare (type memory memory) (type face-list binding))
       (let ((set (face-set constants variables binding)))
         ;; A variable may have taken a face that the clause names: no list of distinct faces.
         (when (and (= (logcount set) arity)
@@ -193,7 +193,7 @@ and goes on with CLAUSES."
     (declare (type (integer 0 5) place) (type (or null (integer 0 5)) partner) (function next)
              (type filters filters))
     (lambda (memory binding)
-      (declare (type memory memory) (type packed binding))
+      (declare (type memory memory) (type face-list binding))
       (let ((left (allowed-faces memory binding filters)))
         (declare (type (unsigned-byte 6) left))
         (when partner
@@ -201,7 +201,7 @@ and goes on with CLAUSES."
         (loop until (zerop left)
               do (let ((face (only-face (logand left (- left)))))
                    (setf left (logand left (1- left)))
-                   (funcall next memory (pack-with binding place face))))))))
+                   (funcall next memory (face-list-with binding place face))))))))
 
 ;;; A walk over facts
 
@@ -237,20 +237,20 @@ of those that are faces, and the variables."
                         filters)))
       (declare (type (integer 0 5) place) (function next) (type filters filters))
       (lambda (memory binding)
-        (declare (type memory memory) (type packed binding))
+        (declare (type memory memory) (type face-list binding))
         (let ((allowed (allowed-faces memory binding filters)))
           (declare (type (unsigned-byte 6) allowed))
           (cond ((zerop allowed))
                 ((and pairs (not (several-p allowed)))
-                 (funcall next memory (pack-with binding place (only-face allowed))))
+                 (funcall next memory (face-list-with binding place (only-face allowed))))
                 (t
                  (let ((set (face-set constants variables binding)))
                    (do-facts (fact memory index)
-                     (let ((left (logandc2 (pack-mask fact) set)))
+                     (let ((left (logandc2 (face-list-mask fact) set)))
                        ;; All faces but one are those that the clause asks for.
                        (when (and (logtest left allowed) (not (several-p left)))
                          (funcall next memory
-                                  (pack-with binding place (only-face left))))))))))))))
+                                  (face-list-with binding place (only-face left))))))))))))))
 
 (defmacro fact-matcher ((fact left allowed) (clause unbound filters) (memory binding) &body body)
   "Return a matcher, a function of MEMORY and BINDING, that runs BODY with each FACT that can meet
@@ -260,14 +260,14 @@ as they are, and ALLOWED that of the faces that FILTERS leave to the first of th
      (let ((index (predicate-index (clause-predicate ,clause))))
        (declare (fixnum count) (type (unsigned-byte 24) index))
        (lambda (,memory ,binding)
-         (declare (type memory ,memory) (type packed ,binding))
+         (declare (type memory ,memory) (type face-list ,binding))
          (let* ((set (face-set constants variables ,binding))
-                (taken (logior set (pack-mask ,binding)))
+                (taken (logior set (face-list-mask ,binding)))
                 (,allowed (allowed-faces ,memory ,binding ,filters)))
            ;; A variable may have taken a face that the clause names: no list of distinct faces.
            (when (and (= (logcount set) count) (plusp ,allowed))
              (do-facts (,fact ,memory index)
-               (let ((,left (logandc2 (pack-mask ,fact) set)))
+               (let ((,left (logandc2 (face-list-mask ,fact) set)))
                  ;; What the fact has of the faces taken is what the clause asks for.
                  (when (and (= set (logand taken ,fact)) (logtest ,left ,allowed))
                    ,@body)))))))))
@@ -275,9 +275,9 @@ as they are, and ALLOWED that of the faces that FILTERS leave to the first of th
 (declaim (inline first-face))
 (defun first-face (fact set)
   "Return the first face of the list FACT that is in SET, which holds one of them at least."
-  (declare (type packed fact) (type (integer 1 63) set))
-  (loop for rest of-type packed = (ash fact -6) then (ash rest -3)
-        when (logbitp (logand rest 7) set) return (the surface (logand rest 7))))
+  (declare (type face-list fact) (type (integer 1 63) set))
+  (loop for rest of-type face-list = (ash fact -6) then (ash rest -3)
+        when (logbitp (logand rest 7) set) return (the face (logand rest 7))))
 
 (defun compile-walk-for-two (clause unbound filters next)
   "Return a matcher that meets CLAUSE, of which the two variables UNBOUND are not bound; they have
@@ -288,9 +288,9 @@ FILTERS, two."
       (fact-matcher (fact left allowed) (clause unbound filters1) (memory binding)
         (flet ((give (face1 face2)
                  (when (logbitp face1 allowed)
-                   (let ((binding (pack-with binding place1 face1)))
+                   (let ((binding (face-list-with binding place1 face1)))
                      (when (logbitp face2 (allowed-faces memory binding filters2))
-                       (funcall next memory (pack-with binding place2 face2)))))))
+                       (funcall next memory (face-list-with binding place2 face2)))))))
           (declare (inline give))
           (let* ((face1 (first-face fact left))
                  (face2 (only-face (logandc2 left (ash 1 face1)))))
@@ -315,19 +315,19 @@ and goes on with NEXT.  FILTERS are those of the other variables."
   (let ((place (first variables)))
     (if (null (rest variables))
         (lambda (memory binding fact left allowed)
-          (declare (type packed binding) (type (unsigned-byte 6) left allowed) (ignore fact))
+          (declare (type face-list binding) (type (unsigned-byte 6) left allowed) (ignore fact))
           (when (logtest left allowed)
-            (funcall (the function next) memory (pack-with binding place (only-face left)))))
+            (funcall (the function next) memory (face-list-with binding place (only-face left)))))
         (let ((further (compile-places (rest variables) (rest filters) next))
               (filter (first filters)))
           (declare (type (integer 0 5) place) (function further) (type filters filter))
           (lambda (memory binding fact left allowed)
-            (declare (type memory memory) (type packed binding fact)
+            (declare (type memory memory) (type face-list binding fact)
                      (type (unsigned-byte 6) left allowed))
-            (dotimes (j (logcount (pack-mask fact)))
-              (let ((face (pack-ref fact (the (integer 0 5) j))))
-                (declare (type surface face))
+            (dotimes (j (logcount (face-list-mask fact)))
+              (let ((face (face-list-ref fact (the (integer 0 5) j))))
+                (declare (type face face))
                 (when (logbitp face (logand left allowed))
-                  (let ((binding (pack-with binding place face)))
+                  (let ((binding (face-list-with binding place face)))
                     (funcall further memory binding fact (logandc2 left (ash 1 face))
                              (allowed-faces memory binding filter)))))))))))

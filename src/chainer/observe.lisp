@@ -5,7 +5,7 @@
 (in-package :supergrip-chainer)
 
 (defun rule-bindings (rule memory)
-  "Return all bindings of RULE on MEMORY, packed, in their order."
+  "Return all bindings of RULE on MEMORY, face-list, in their order."
   (prefix-bindings rule (length (rule-clauses rule)) memory))
 
 (defun prefix-bindings (rule count memory)
@@ -48,5 +48,5 @@ Returns the STOP, or NIL."
   "Return BINDING of RULE as \"S1 = Z1, S2 = Y2\".  Variables are bound in their order, so those
 that are not bound yet are the last."
   (format nil "~{~a = ~a~^, ~}" (loop for name in (rule-variables rule)
-                                      for surface in (pack-names binding)
+                                      for surface in (face-list-names binding)
                                       collect name collect surface)))

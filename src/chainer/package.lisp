@@ -7,9 +7,10 @@
 the closed-world assumption; predicates of unordered lists of surfaces; actions attached through
 one generic function.")
   (:export
-   ;; surfaces
-   #:+surfaces+ #:surface #:surface-index #:surface-name #:opposite #:surface-axis #:surface-sign
-   #:packed #:pack #:pack-mask #:pack-ref #:pack-count #:pack-elements #:pack-names
+   ;; faces
+   #:+faces+ #:face #:face-index #:face-name #:opposite #:face-axis #:face-sign
+   #:face-list #:make-face-list #:face-list-mask #:face-list-ref #:face-list-count
+   #:face-list-elements #:face-list-names
    ;; predicates and working memory
    #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
    #:predicate-given
@@ -31,4 +32,7 @@ one generic function.")
    ;; running
    #:run-rules #:stop #:stop-verdict #:stop-rule #:stop-words #:make-stop
    #:rule-bindings #:prefix-bindings #:run-observed #:binding-text #:check-rules
-   #:log-event #:event-rule #:event-action #:event-binding #:event-fact))
+   #:log-event #:event-rule #:event-action #:event-binding #:event-fact
+   ;; names of 0.1.0
+   #:+surfaces+ #:surface #:surface-index #:surface-name #:surface-axis #:surface-sign
+   #:pack #:pack-mask #:pack-count #:pack-elements #:pack-names))

@@ -69,20 +69,20 @@ elements would be."
   (>= term 0))
 
 (defun term-value (term binding)
-  "Return the face that TERM stands for under BINDING, a packed list."
-  (declare (type (integer -6 5) term) (type packed binding))
+  "Return the face that TERM stands for under BINDING, a face list."
+  (declare (type (integer -6 5) term) (type face-list binding))
   (if (term-variable-p term)
-      (pack-ref binding term)
+      (face-list-ref binding term)
       (- -1 term)))
 
 (defun instantiate (terms binding)
-  "Return TERMS under BINDING, packed in the order of TERMS."
-  (let ((packed 0))
-    (declare (type packed packed))
+  "Return TERMS under BINDING, face-list in the order of TERMS."
+  (let ((face-list 0))
+    (declare (type face-list face-list))
     (loop for term in terms
           for place of-type (integer 0 6) from 0
-          do (setf packed (pack-with packed place (term-value term binding))))
-    packed))
+          do (setf face-list (face-list-with face-list place (term-value term binding))))
+    face-list))
 
 ;;; Sentences
 
@@ -114,7 +114,7 @@ elements would be."
   "Return the term that ELEMENT of the list FORM stands for, or NIL after a complaint."
   (cond ((not (namep element))
          (complain form "~a is not a surface" (form-text element)))
-        ((surface-index element) (- -1 (surface-index element)))
+        ((face-index element) (- -1 (face-index element)))
         ((variable-name-p element) (intern-variable element bind form))
         (t (complain form "~a is neither a surface (X1 to Z2) nor a variable ~
                            (a name that begins with S, as S1)" element))))
@@ -147,7 +147,7 @@ have yet are allowed if BIND is true.  Complains, and returns NIL and true, of a
 (defun loose-surface-p (name)
   "True if NAME, a word of a sentence, can only be meant as a surface: X1 to Z2, S1 and so on."
   (and (namep name)
-       (or (surface-index name)
+       (or (face-index name)
            (and (variable-name-p name) (every #'digit-char-p (subseq (symbol-name name) 1))))))
 
 (defun list-surfaces (words &optional list)
@@ -202,7 +202,7 @@ the last perhaps a list of surfaces.  Returns NIL after a complaint."
 
 (defun surface-list-p (list)
   (every (lambda (element) (and (namep element)
-                                (or (surface-index element) (variable-name-p element))))
+                                (or (face-index element) (variable-name-p element))))
          list))
 
 ;;; Actions

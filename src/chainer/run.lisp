@@ -13,7 +13,7 @@ WORDS what it said, as strings."
 (declaim (inline log-event))
 (defun log-event (memory rule action binding)
   "Note in the log of MEMORY that RULE did its ACTION, a number, under BINDING."
-  (declare (type memory memory) (type packed binding) (type (unsigned-byte 16) action))
+  (declare (type memory memory) (type face-list binding) (type (unsigned-byte 16) action))
   (push (logior binding (ash action 24) (ash (the (unsigned-byte 22) (rule-index rule)) 40))
         (memory-log memory)))
 
@@ -26,11 +26,11 @@ WORDS what it said, as strings."
   (nth (ldb (byte 16 24) event) (rule-actions (event-rule event rulebase))))
 
 (defun event-binding (event)
-  "Return the binding of EVENT, a packed list."
+  "Return the binding of EVENT, a face list."
   (ldb (byte 24 0) event))
 
 (defun event-fact (event rulebase)
-  "Return the predicate and the packed list that EVENT remembered, or NIL."
+  "Return the predicate and the face-list list that EVENT remembered, or NIL."
   (let ((action (event-action event rulebase)))
     (and (action-predicate action)
          (values (action-predicate action)
@@ -41,16 +41,16 @@ WORDS what it said, as strings."
 (defun make-memory (rulebase &optional client)
   "Return an empty memory for the rules of RULEBASE."
   (let ((count (length (rulebase-predicates rulebase))))
-    (flet ((packs (length)
+    (flet ((face-lists (length)
              (make-array length :element-type '(unsigned-byte 32) :initial-element 0)))
       (%make-memory :relations (make-array count :element-type '(unsigned-byte 64)
                                                  :initial-element 0)
-                    :facts (packs (* +most-facts+ count))
-                    :counts (packs count)
-                    :used (packs count)
+                    :facts (face-lists (* +most-facts+ count))
+                    :counts (face-lists count)
+                    :used (face-lists count)
                     :awake (copy-seq (rulebase-awake rulebase))
                     :sleepers (rulebase-sleepers rulebase)
-                    :bindings (packs 16)
+                    :bindings (face-lists 16)
                     :client client))))
 
 (defun clear-memory (memory rulebase)
@@ -132,8 +132,8 @@ TERMS."
   (let ((rule *rule*)
         (arity (predicate-arity predicate))
         (variables (loop for place below (length (rule-variables *rule*)) collect place)))
-    (flet ((put (memory packed binding)
-             (when (put-fact memory predicate packed)
+    (flet ((put (memory face-list binding)
+             (when (put-fact memory predicate face-list)
                (log-event memory rule number binding))
              nil))
       (declare (inline put))
@@ -142,11 +142,11 @@ TERMS."
           (lambda (memory binding)
             (put memory binding binding))
           (lambda (memory binding)
-            (let ((packed (instantiate terms binding)))
+            (let ((face-list (instantiate terms binding)))
               ;; A variable may have taken a face that the action names: no list of distinct
               ;; faces, and nothing to remember.
-              (when (= (pack-count packed) arity)
-                (put memory packed binding))))))))
+              (when (= (face-list-count face-list) arity)
+                (put memory face-list binding))))))))
 
 (define-action :cant (action rulebase)
   (let ((words (action-operands action)))

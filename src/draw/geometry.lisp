@@ -27,15 +27,15 @@
 ;;; Faces and boxes
 
 (defun face-normal (face)
-  "Return the outward normal of FACE, 0 to 5 (see SURFACE-INDEX)."
-  (axis-vector (surface-axis face) (surface-sign face)))
+  "Return the outward normal of FACE, 0 to 5 (see FACE-INDEX)."
+  (axis-vector (face-axis face) (face-sign face)))
 
 (defun face-corners (face low high)
   "Return the four corners of FACE of the box from LOW to HIGH, in a round."
-  (let* ((axis (surface-axis face))
+  (let* ((axis (face-axis face))
          (i (mod (+ axis 1) 3))
          (j (mod (+ axis 2) 3))
-         (level (nth axis (if (plusp (surface-sign face)) high low))))
+         (level (nth axis (if (plusp (face-sign face)) high low))))
     (loop for (a b) in '((nil nil) (t nil) (t t) (nil t))
           collect (with-part (with-part (axis-vector axis level) i (nth i (if a high low)))
                     j (nth j (if b high low))))))
@@ -54,10 +54,10 @@ TOWARD the viewer.  AZIMUTH and ELEVATION, in degrees, are those of the viewer o
 (defun frame-over (top)
   "Return three unit vectors, right-handed, the third of which is the normal of the face TOP: X Y Z
 for Z1."
-  (let* ((axis (surface-axis top))
+  (let* ((axis (face-axis top))
          (i (axis-vector (mod (+ axis 1) 3)))
          (j (axis-vector (mod (+ axis 2) 3))))
-    (if (plusp (surface-sign top))
+    (if (plusp (face-sign top))
         (list i j (face-normal top))
         (list j i (face-normal top)))))
 

@@ -83,21 +83,21 @@ long, neither too large nor too small for the fingers; USUAL is a size in the mi
         (when (or (null most) (> score (+ most 1d-6)))
           (setf best candidate most score))))))
 
-(defun slot-namer (candidate)
+(defun face-namer (candidate)
   "Return a function that gives the grasp's own name of a face of the box."
   (lambda (face)
     (aref #("N1" "N2" "O1" "O2" "A1" "A2")
-          (position (surface-name face) (candidate-matching candidate) :test #'string=))))
+          (position (face-name face) (candidate-matching candidate) :test #'string=))))
 
-(defun slot-axes (candidate)
+(defun grasp-axes (candidate)
   "Return the vectors of N, O and A."
   (loop for (face) on (candidate-matching candidate) by #'cddr
-        collect (face-normal (surface-index face))))
+        collect (face-normal (face-index face))))
 
-(defun draw-slot-axes (camera candidate point)
+(defun draw-grasp-axes (camera candidate point)
   "Draw the axes N O A of CANDIDATE at POINT."
   (let ((view (make-view :camera camera :scale 26 :origin point)))
-    (loop for vector in (slot-axes candidate)
+    (loop for vector in (grasp-axes candidate)
           for name in '("N" "O" "A")
           for end = (project view vector)
           for way = (max 1 (distance point end))
@@ -133,13 +133,13 @@ long, neither too large nor too small for the fingers; USUAL is a size in the mi
              (format nil "~a: possible on none of the reference boxes." (grasp-name grasp))))))
 
 (defun draw-reference (candidate plan x y width height)
-  (let* ((subject (grasp-subject candidate plan :namer (slot-namer candidate) :labelled nil))
+  (let* ((subject (grasp-subject candidate plan :namer (face-namer candidate) :labelled nil))
          (camera (best-camera (list subject) 26 (palm-face candidate)))
          (view (fit-view camera (subject-vectors subject)
                          (list (+ x 34) (+ y 60) (- width 76) (- height 108))))
          (summary (grasp-summary subject)))
     (draw-text (fitting summary "soft" (- width 20)) (list (+ x 10) (+ y 41)) :class "soft")
-    (draw-slot-axes camera candidate (list (+ x 40) (+ y height -40)))
+    (draw-grasp-axes camera candidate (list (+ x 40) (+ y height -40)))
     (occupy (list (+ x 2) (+ y height -78) 76 76))
     (draw-subject subject view)
     (place-labels (list (+ x 4) (+ y 48) (- width 8) (- height 52)))

@@ -3,7 +3,7 @@
 (defpackage :supergrip-draw
   (:use :cl :supergrip)
   (:lock t)
-  (:import-from :supergrip-chainer #:surface-index #:surface-name #:surface-axis #:surface-sign
+  (:import-from :supergrip-chainer #:face-index #:face-name #:face-axis #:face-sign
                 #:opposite)
   (:documentation "Pictures of boxes, grasps and plans, as SVG, and reports, as HTML.")
   (:export

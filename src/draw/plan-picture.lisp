@@ -82,7 +82,7 @@
   (format nil "Fingers: ~{~a~^, ~}; cm from the box centre."
           (loop for contact in (subject-contacts subject)
                 collect (format nil "~a on ~a at ~a" (finger-name contact)
-                                (surface-name (contact-face contact))
+                                (face-name (contact-face contact))
                                 (place-text (contact-position contact))))))
 
 (defun candidate-title (candidate)
@@ -93,7 +93,7 @@
   (format nil "~a holds a box, ~a, with the matching ~a. The palm is over ~a. ~a ~a"
           (candidate-grasp candidate) (box-text (plan-box plan))
           (matching-text (candidate-matching candidate))
-          (surface-name (subject-palm subject)) (fingers-text subject)
+          (face-name (subject-palm subject)) (fingers-text subject)
           (constrained-text (plan-box plan))))
 
 (defun constrained-text (box)

@@ -53,7 +53,7 @@ forces in units of one finger’s greatest normal force, torques in their produc
                              when (= face (contact-face contact))
                                collect (finger-name contact))
            collect (format nil "finger~p ~a on ~a" (length names) (list-text names)
-                           (surface-name face))))))
+                           (face-name face))))))
 
 (defun verdict-words (plan)
   "Return the verdict of PLAN, a list of sentences."
@@ -65,7 +65,7 @@ forces in units of one finger’s greatest normal force, torques in their produc
           (remove nil
                   (list (format nil "Hold it with ~a: ~a, the palm over ~a."
                                 (candidate-grasp best) (fingers-words subject)
-                                (surface-name (subject-palm subject)))
+                                (face-name (subject-palm subject)))
                         (format nil "The quality index is ~a~@[; the next best, ~a~]."
                                 (index-text (candidate-quality best))
                                 (and next (format nil "~a, has ~a" (candidate-grasp next)
@@ -258,14 +258,14 @@ needed."
 
 (defun rulebase-of (plan) (knowledge-rulebase (plan-knowledge plan)))
 
-(defun fact-id (predicate packed)
+(defun fact-id (predicate face-list)
   "Return the id of a fact in the page."
   (format nil "fact-~d-~d" (supergrip-chainer:predicate-index predicate)
-          (supergrip-chainer:pack-mask packed)))
+          (supergrip-chainer:face-list-mask face-list)))
 
-(defun fact-text (predicate packed)
+(defun fact-text (predicate face-list)
   (format nil "~a~@[ (~{~a~^ ~})~]" (supergrip-chainer:predicate-text predicate)
-          (supergrip-chainer:pack-names packed)))
+          (supergrip-chainer:face-list-names face-list)))
 
 (defun rule-id (rule)
   (format nil "rule-~d" (supergrip-chainer:rule-index rule)))
@@ -282,9 +282,9 @@ needed."
   (let ((made (mapcar (lambda (fact) (apply #'fact-id (rest fact))) (remembered-facts plan)))
         (memory (plan-memory plan)))
     (loop for predicate across (supergrip-chainer:rulebase-predicates (rulebase-of plan))
-          append (loop for packed in (supergrip-chainer:facts memory predicate)
-                       unless (member (fact-id predicate packed) made :test #'string=)
-                         collect (list predicate packed)))))
+          append (loop for face-list in (supergrip-chainer:facts memory predicate)
+                       unless (member (fact-id predicate face-list) made :test #'string=)
+                         collect (list predicate face-list)))))
 
 (defun put-antecedents (event plan)
   "Write, for EVENT, what made its rule fire, each fact a link to where it comes from."
@@ -293,30 +293,30 @@ needed."
     (loop for clause in (supergrip-chainer:rule-clauses rule)
           for first = t then nil
           for predicate = (supergrip-chainer:clause-predicate clause)
-          for packed = (supergrip-chainer:instantiate (supergrip-chainer:clause-terms clause)
+          for face-list = (supergrip-chainer:instantiate (supergrip-chainer:clause-terms clause)
                                                       binding)
           do (say "~:[, ~;~]" first)
              (if (supergrip-chainer:clause-negated clause)
-                 (say "not ~a" (fact-text predicate packed))
-                 (markup (:a :href (format nil "#~a" (fact-id predicate packed))
-                             (say "~a" (fact-text predicate packed))))))))
+                 (say "not ~a" (fact-text predicate face-list))
+                 (markup (:a :href (format nil "#~a" (fact-id predicate face-list))
+                             (say "~a" (fact-text predicate face-list))))))))
 
 (defun put-facts (plan)
   "Write what was known at first, and what each rule added, with its reasons."
   (markup
     (:h3 "Known before any rule ran")
     (:ul :class "facts"
-         (loop for (predicate packed) in (given-facts plan)
-               do (markup (:li :id (fact-id predicate packed)
-                               (say "~a" (fact-text predicate packed))))))
+         (loop for (predicate face-list) in (given-facts plan)
+               do (markup (:li :id (fact-id predicate face-list)
+                               (say "~a" (fact-text predicate face-list))))))
     (:h3 "What the rules added, in order")
     (if (remembered-facts plan)
         (markup
           (:ol :class "facts"
-               (loop for (event predicate packed) in (remembered-facts plan)
+               (loop for (event predicate face-list) in (remembered-facts plan)
                      for rule = (supergrip-chainer:event-rule event (rulebase-of plan))
-                     do (markup (:li :id (fact-id predicate packed)
-                                     (:strong (say "~a" (fact-text predicate packed)))
+                     do (markup (:li :id (fact-id predicate face-list)
+                                     (:strong (say "~a" (fact-text predicate face-list)))
                                      (:br)
                                      "by "
                                      (:a :href (format nil "#~a" (rule-id rule))
@@ -353,7 +353,7 @@ needed."
 
 (defun put-changes (plan)
   "Write which single need, friction or weight would have to change for the choice to change."
-  (let ((changes (advice-changes (advise plan))))
+  (let ((changes (choice-changes (explain-choice plan))))
     (if changes
         (markup (:ul (loop for change in (subseq changes 0 (min 5 (length changes)))
                            do (markup (:li (say "~{If ~a were ~a, not ~a: ~a.~}"

@@ -63,7 +63,7 @@
   (let ((edges '()))
     (loop for f in '(0 1 2 3 4 5)
           do (loop for g in '(0 1 2 3 4 5)
-                   when (and (< f g) (/= (surface-axis f) (surface-axis g)))
+                   when (and (< f g) (/= (face-axis f) (face-axis g)))
                      do (let ((ends (intersection
                                      (face-corners f (subject-low subject) (subject-high subject))
                                      (face-corners g (subject-low subject) (subject-high subject))
@@ -159,7 +159,7 @@ at all."
   "True if the segment from A to B lies beyond a face that is turned to the viewer, or beside the
 box as seen edge-on, so that the box can't hide it."
   (some (lambda (face)
-          (let ((axis (surface-axis face)) (sign (surface-sign face)))
+          (let ((axis (face-axis face)) (sign (face-sign face)))
             (and (>= (face-turned face) 0)
                  (every (lambda (end)
                           (>= (* sign (nth axis end))
@@ -256,7 +256,7 @@ box as seen edge-on, so that the box can't hide it."
 
 (defun contact-title (contact)
   (format nil "Finger ~a on ~a at ~a cm" (finger-name contact)
-          (surface-name (contact-face contact)) (place-text (contact-position contact))))
+          (face-name (contact-face contact)) (place-text (contact-position contact))))
 
 (defun label-anchor (contact)
   "Return the point of the label of CONTACT: the knee of its finger, or a place on a straight one."
@@ -462,7 +462,7 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
       (format nil "Seen from azimuth ~d°, elevation ~d°, ~a above; ~a units a cm; box centre at ~
                    (~a, ~a)."
               (camera-azimuth camera) (camera-elevation camera)
-              (surface-name (camera-top camera))
+              (face-name (camera-top camera))
               (plain (view-scale view) (max 0 (- 6 (magnitude (view-scale view)))))
               (plain (first (view-origin view)) 3) (plain (second (view-origin view)) 3)))))
 

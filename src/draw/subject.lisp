@@ -19,7 +19,7 @@ not to scale is made.  PALM-LOW and PALM-HIGH are the corners of the palm's plat
 the name of a face.  LOAD is the weight as text, or NIL for no weight to be drawn; LABELLED is NIL
 if the grasp centre is to be drawn without words."
   size low high (gap 0) (blocked '()) (contacts '()) (centre '(0d0 0d0 0d0)) (palm nil)
-  palm-low palm-high (namer #'surface-name) (load nil) (labelled t))
+  palm-low palm-high (namer #'face-name) (load nil) (labelled t))
 
 (defun subject-cut-p (subject)
   "True if only part of the box is shown."
@@ -58,8 +58,8 @@ it, if that leaves the contacts apart from each other."
                  (if whole
                      (values (- half) half)
                      (window-along (nth axis lows) (nth axis highs) half (* 3.5 hold)))
-               (when (= axis (surface-axis palm))
-                 (if (plusp (surface-sign palm)) (setf to half) (setf from (- half))))
+               (when (= axis (face-axis palm))
+                 (if (plusp (face-sign palm)) (setf to half) (setf from (- half))))
                (push from low)
                (push to high)))
     (values (reverse low) (reverse high))))
@@ -68,13 +68,13 @@ it, if that leaves the contacts apart from each other."
 
 (defun raised (vector palm level)
   "Return VECTOR moved along the normal of the face PALM to LEVEL."
-  (with-part vector (surface-axis palm) level))
+  (with-part vector (face-axis palm) level))
 
 (defun side-step (position palm subject)
   "Return POSITION, on the face opposed to PALM, moved past the nearest edge, for a finger to pass."
   (let ((best nil) (least nil))
     (loop for axis below 3
-          unless (= axis (surface-axis palm))
+          unless (= axis (face-axis palm))
             do (loop for edge in (list (nth axis (subject-low subject))
                                        (nth axis (subject-high subject)))
                      for way = (abs (- edge (nth axis position)))
@@ -95,10 +95,10 @@ it, if that leaves the contacts apart from each other."
 
 (defun palm-level (palm low high contacts gap)
   "Return where the palm's plane is along the normal of the face PALM."
-  (let ((axis (surface-axis palm)))
-    (* (surface-sign palm)
+  (let ((axis (face-axis palm)))
+    (* (face-sign palm)
        (+ (* 1.9 gap)
-          (reduce #'max (mapcar (lambda (vector) (* (surface-sign palm) (nth axis vector)))
+          (reduce #'max (mapcar (lambda (vector) (* (face-sign palm) (nth axis vector)))
                                 (list* low high contacts)))))))
 
 (defun place-palm (subject level)
@@ -109,9 +109,9 @@ it, if that leaves the contacts apart from each other."
                               (subject-contacts subject))))
          (low (apply #'mapcar #'min roots))
          (high (apply #'mapcar #'max roots))
-         (thickness (* 0.3 gap (surface-sign palm))))
+         (thickness (* 0.3 gap (face-sign palm))))
     (loop for axis below 3
-          do (if (= axis (surface-axis palm))
+          do (if (= axis (face-axis palm))
                  (setf low (with-part low axis (min level (+ level thickness)))
                        high (with-part high axis (max level (+ level thickness))))
                  (let ((more (max (* 0.4 gap)
@@ -147,7 +147,7 @@ OPTIONS are other slots of the subject."
         (setf (subject-contacts subject)
               (loop for contact in found
                     for number from 1
-                    for face = (surface-index (getf contact :surface))
+                    for face = (face-index (getf contact :surface))
                     for position = (getf contact :position)
                     collect (make-contact :number number :face face :position position
                                           :path (finger-path position face palm level subject))))
@@ -155,10 +155,10 @@ OPTIONS are other slots of the subject."
 
 (defun palm-face (candidate)
   "Return the face that the palm of CANDIDATE is over."
-  (surface-index (candidate-palm candidate)))
+  (face-index (candidate-palm candidate)))
 
 (defun blocked-faces (box)
-  (mapcar #'surface-index (box-constrained box)))
+  (mapcar #'face-index (box-constrained box)))
 
 (defun box-subject (box &rest options)
   "Return the subject of BOX without a grasp; OPTIONS are other slots."
@@ -193,11 +193,11 @@ side."
 
 (defun plate-corners (face subject)
   "Return the corners, low and high, of the plate that stands for what constrains FACE."
-  (let* ((axis (surface-axis face)) (gap (subject-gap subject))
+  (let* ((axis (face-axis face)) (gap (subject-gap subject))
          (low (subject-low subject)) (high (subject-high subject))
          (margin (list (* 0.3 gap) (* 0.3 gap) (* 0.3 gap)))
          (from (v- low margin)) (to (v+ high margin)))
-    (if (plusp (surface-sign face))
+    (if (plusp (face-sign face))
         (values (with-part from axis (nth axis high))
                 (with-part to axis (+ (nth axis high) (* 0.25 gap))))
         (values (with-part from axis (- (nth axis low) (* 0.25 gap)))
@@ -205,8 +205,8 @@ side."
 
 (defun shown-face-p (face subject)
   "True if FACE is an end of what is shown, not the cut of a box that goes on."
-  (let ((axis (surface-axis face)))
-    (< (abs (- (abs (nth axis (if (plusp (surface-sign face))
+  (let ((axis (face-axis face)))
+    (< (abs (- (abs (nth axis (if (plusp (face-sign face))
                                   (subject-high subject)
                                   (subject-low subject))))
                (/ (nth axis (subject-size subject)) 2)))

@@ -6,14 +6,14 @@
 (deftype three () "Three numbers: along X Y Z." '(simple-array double-float (3)))
 
 (defstruct (box (:conc-name %box-) (:constructor %make-box) (:copier nil) (:predicate box-p))
-  "A box and what is to be done with it.  SIZE along X Y Z in cm; WEIGHT in finger forces; U the
-coefficient of friction; V that of the soft finger's torque, in cm; CONSTRAINED a set of faces;
+  "A box and what is to be done with it.  SIZE along X Y Z in cm; WEIGHT in finger forces;
+FRICTION the coefficient u; SOFT-FRICTION v, that of the soft finger's torque, in cm; CONSTRAINED a set of faces;
 FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
   (name nil)
   (size nil :type three)
   (weight 0d0 :type double-float)
-  (u 0d0 :type double-float)
-  (v 0d0 :type double-float)
+  (friction 0d0 :type double-float)
+  (soft-friction 0d0 :type double-float)
   (constrained 0 :type (unsigned-byte 6))
   (force nil :type six)
   (velocity nil :type six)
@@ -25,13 +25,13 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
   (coerce (%box-size box) 'list))
 (defun box-weight (box) "Return the weight of BOX, in units of one finger's greatest normal force."
   (%box-weight box))
-(defun box-friction (box) "Return the coefficient of friction of BOX, U." (%box-u box))
+(defun box-friction (box) "Return the coefficient of friction of BOX, U." (%box-friction box))
 (defun box-soft-friction (box)
   "Return the coefficient of the soft finger's torque about its normal, V, in cm."
-  (%box-v box))
+  (%box-soft-friction box))
 (defun box-constrained (box) "Return the names of the constrained faces of BOX."
   (loop for face below 6
-        when (logbitp face (%box-constrained box)) collect (surface-name face)))
+        when (logbitp face (%box-constrained box)) collect (face-name face)))
 (defun box-force-needed (box)
   "Return the forces along X Y Z and the torques about X Y Z that the task needs, a list, 0 to 1."
   (coerce (%box-force box) 'list))

@@ -15,7 +15,7 @@ each kind are:
 :CONSTANT number               :TRUE, :FALSE
 :INPUT register                :NOT test
 :OPERATION operator number...  :AND test test, :OR test test
-:LET (node...) body            :CONSTRAINED slot
+:LET (node...) body            :CONSTRAINED grasp-face
 :COND (test value)...          :COMPARISON comparison number number
 :LIST number...
 
@@ -211,16 +211,16 @@ constants.  NIL if one of them is NIL."
                              form scope)
             (operation-node (form-operator form :number) nodes form scope))))))
 
-(defun quoted-slots (form)
-  "Return the slots that FORM, '(N1 N2), lists, or NIL."
+(defun quoted-faces (form)
+  "Return the grasp-faces that FORM, '(N1 N2), lists, or NIL."
   (let* ((list (and (part-p form "QUOTE") (second form)))
-         (slots (and (consp list) (mapcar #'slot-index list))))
-    (and slots (notany #'null slots) slots)))
+         (grasp-faces (and (consp list) (mapcar #'grasp-face-index list))))
+    (and grasp-faces (notany #'null grasp-faces) grasp-faces)))
 
 (define-form "DIST" (:number) (form scope)
-  (let ((slots (and (= (length form) 2) (quoted-slots (second form)))))
-    (if (and (= (length slots) 2) (= 1 (logxor (first slots) (second slots))))
-        (input-node (+ +distances+ (floor (first slots) 2)))
+  (let ((grasp-faces (and (= (length form) 2) (quoted-faces (second form)))))
+    (if (and (= (length grasp-faces) 2) (= 1 (logxor (first grasp-faces) (second grasp-faces))))
+        (input-node (+ +distances+ (floor (first grasp-faces) 2)))
         (complain form "~a: DIST takes two opposite faces, as (DIST '(N1 N2))" (form-text form)))))
 
 ;;; Helper functions
@@ -353,12 +353,12 @@ is."
           (t (parse-infix form scope)))))
 
 (define-form "CONSTRAINED" (:test) (form scope)
-  (let ((slot (and (= (length form) 2)
-                   (slot-index (if (part-p (second form) "QUOTE")
+  (let ((grasp-face (and (= (length form) 2)
+                   (grasp-face-index (if (part-p (second form) "QUOTE")
                                    (second (second form))
                                    (second form))))))
-    (if slot
-        (node :constrained form slot)
+    (if grasp-face
+        (node :constrained form grasp-face)
         (complain form "~a: CONSTRAINED takes one of N1 N2 O1 O2 A1 A2" (form-text form)))))
 
 (define-form "NOT" (:test) (form scope)

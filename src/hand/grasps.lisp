@@ -3,8 +3,8 @@
 (in-package :supergrip)
 
 (defstruct grasp
-  "A grasp mode.  USED is the list of the slots that it uses, PALM the slot that the palm faces,
-CONTACTS a list of (SLOT P Q), P and Q being registers; PLACES holds the same as axes (0 to 2) and
+  "A grasp mode.  USED is the list of the grasp faces that it uses, PALM the one that the palm faces,
+CONTACTS a list of (GRASP-FACE P Q), P and Q being registers; PLACES holds the same as axes (0 to 2) and
 registers in turn, without the axes that the faces are normal to.  The other parts are PROGRAMs;
 COMPARISONS is an alist from the comparisons in CONDITIONS-NODE to those of their operands.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
@@ -101,38 +101,38 @@ start from."
         (complain form "~a is missing" key)))))
 
 (defun parse-used (value)
-  (let ((slots (and (consp value) (mapcar #'slot-index value))))
-    (cond ((or (null slots) (member nil slots))
+  (let ((grasp-faces (and (consp value) (mapcar #'grasp-face-index value))))
+    (cond ((or (null grasp-faces) (member nil grasp-faces))
            (complain value "~a: USED-SURFACES are some of N1 N2 O1 O2 A1 A2" (form-text value)))
-          ((/= (length slots) (length (remove-duplicates slots)))
+          ((/= (length grasp-faces) (length (remove-duplicates grasp-faces)))
            (complain value "~a: the same surface twice" (form-text value)))
-          (t slots))))
+          (t grasp-faces))))
 
 (defun parse-palm (entry used form)
-  "Return the slot of the palm: by default the used face of A.  USED is NIL if it is wrong itself."
-  (let ((slot (if entry
-                  (slot-index (cdr entry))
-                  (find-if (lambda (slot) (member slot used)) '(5 4)))))
-    (cond ((null slot)
+  "Return the grasp face of the palm: by default the used face of A.  USED is NIL if it is wrong itself."
+  (let ((grasp-face (if entry
+                  (grasp-face-index (cdr entry))
+                  (find-if (lambda (grasp-face) (member grasp-face used)) '(5 4)))))
+    (cond ((null grasp-face)
            (complain form (if entry "~a: PALM is one of N1 N2 O1 O2 A1 A2"
                               "PALM is missing, and no face of A is used~*")
                      (and entry (form-text (cdr entry)))))
-          ((and used (not (member slot used)))
+          ((and used (not (member grasp-face used)))
            (complain form "the palm faces ~a, which is not one of USED-SURFACES"
-                     (svref +slots+ slot)))
-          (t slot))))
+                     (svref +grasp-faces+ grasp-face)))
+          (t grasp-face))))
 
 (defun parse-contact (contact used scope)
-  "Return (SLOT NODE NODE) of CONTACT, (FACE P Q), or NIL after a complaint."
-  (let ((slot (and (consp contact) (slot-index (first contact)))))
-    (cond ((or (null slot) (/= (length contact) 3))
+  "Return (GRASP-FACE NODE NODE) of CONTACT, (FACE P Q), or NIL after a complaint."
+  (let ((grasp-face (and (consp contact) (grasp-face-index (first contact)))))
+    (cond ((or (null grasp-face) (/= (length contact) 3))
            (complain contact "~a is not a contact: a face, and its place on it along the two other ~
                            axes, as (N1 0 0)" (form-text contact)))
-          ((and used (not (member slot used)))
+          ((and used (not (member grasp-face used)))
            (complain contact "a finger is on ~a, which is not one of USED-SURFACES"
-                     (svref +slots+ slot)))
+                     (svref +grasp-faces+ grasp-face)))
           (t (let ((place (parse-forms (rest contact) scope :number)))
-               (and place (cons slot place)))))))
+               (and place (cons grasp-face place)))))))
 
 (defparameter +most-contacts+ 50 "The most contacts that a grasp may have.")
 
@@ -140,8 +140,8 @@ start from."
   "Return the contacts, by default one in the middle of each used face but the palm's."
   (let ((contacts (if entry
                       (and (listp (cdr entry)) (cdr entry))
-                      (loop for slot in used
-                            unless (eql slot palm) collect (list (svref +slots+ slot) 0 0)))))
+                      (loop for grasp-face in used
+                            unless (eql grasp-face palm) collect (list (svref +grasp-faces+ grasp-face) 0 0)))))
     (cond ((null contacts) (complain form "CONTACTS lists no contact"))
           ((nthcdr +most-contacts+ contacts)
            (complain form "CONTACTS lists more than ~d contacts" +most-contacts+))
@@ -209,18 +209,17 @@ start from."
 
 ;;; From drafts to grasps
 
-(defun carried-onto-itself (slots turn)
-  (null (set-exclusive-or slots (mapcar (lambda (slot) (svref turn slot)) slots))))
+(defun carried-onto-itself (grasp-faces turn)
+  (null (set-exclusive-or grasp-faces (mapcar (lambda (grasp-face) (svref turn grasp-face)) grasp-faces))))
 
 (defun allowed-turn-p (kind turn used fingers)
-  "True if a grasp that uses the slots USED, with FINGERS, the slots of its contacts, is the same
-after TURN as far as the paper's index can tell, which takes the lesser of two directions."
+  "True if a grasp that uses the grasp faces USED, with FINGERS, those of its contacts, is the same after TURN as far as the paper's index can tell, which takes the lesser of two directions."
   (and (carried-onto-itself used turn)
        (carried-onto-itself (remove-duplicates fingers) turn)
        (or (eq kind :half-turn)
            ;; Another axis takes the place of each, so the fingers must be as many.
-           (loop for slot in fingers
-                 always (= (count slot fingers) (count (svref turn slot) fingers))))))
+           (loop for grasp-face in fingers
+                 always (= (count grasp-face fingers) (count (svref turn grasp-face) fingers))))))
 
 (defun same-matchings (used fingers)
   "Return, for each matching, the set of those that are the same grasp."
@@ -235,20 +234,20 @@ after TURN as far as the paper's index can tell, which takes the lesser of two d
     sets))
 
 (defun usable-matchings (used)
-  "Return, for each set of box faces, the set of the matchings in which none of the slots USED has one
-of them."
+  "Return, for each set of box faces, the set of the matchings in which none of the grasp faces USED
+has one of them."
   (let ((sets (make-array 64 :element-type '(unsigned-byte 24) :initial-element +all-matchings+)))
     (dotimes (faces 64 sets)
       (dotimes (face 6)
         (when (logbitp face faces)
-          (dolist (slot used)
+          (dolist (grasp-face used)
             (setf (aref sets faces)
-                  (logandc2 (aref sets faces) (aref +matchings-with+ slot face)))))))))
+                  (logandc2 (aref sets faces) (aref +matchings-with+ grasp-face face)))))))))
 
 (defun contact-places (contacts registers)
   "Return the PLACES of a grasp with CONTACTS, whose positions will be in REGISTERS, two for each."
-  (coerce (loop for (slot) in contacts
-                append (loop for axis in (remove (floor slot 2) '(0 1 2))
+  (coerce (loop for (grasp-face) in contacts
+                append (loop for axis in (remove (floor grasp-face 2) '(0 1 2))
                              collect axis collect (pop registers)))
           'register-vector))
 
@@ -269,9 +268,9 @@ of them."
      :offset (six-program (draft-offset draft) layout)
      :positions positions
      :places (contact-places contacts places)
-     :contacts (loop for slot in fingers
+     :contacts (loop for grasp-face in fingers
                      for (p q) on places by #'cddr
-                     collect (list slot p q))
+                     collect (list grasp-face p q))
      :wrench (six-program (draft-wrench draft) layout)
      :twist (six-program (draft-twist draft) layout)
      :usable (usable-matchings (draft-used draft))

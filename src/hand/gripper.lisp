@@ -46,7 +46,7 @@ wrong."
   "Complain of DIMENSIONS that contradict each other."
   (flet ((size (name) (cdr (assoc name dimensions :test #'string=)))
          (compare (control &rest numbers)
-           (complain form "~?" control (apply #'figures numbers))))
+           (complain form "~?" control (apply #'number-texts numbers))))
     (let ((length (size "FINGER-LENGTH")) (dist (size "FINGER-DIST"))
           (pinch (size "DIST-PINCH")) (width (size "FINGER-WIDTH"))
           (spread (size "FINGER-SPREAD")))

@@ -7,7 +7,7 @@
 (defstruct (input-row (:constructor make-input-row (name arity dimension assert note)))
   "A preliminary assertion: its NAME, a string; how many faces its lists have, ARITY; the name of the
 gripper's DIMENSION that is its threshold, or NIL; ASSERT, a function of a memory, the predicate, a
-box and the threshold that remembers all that holds; NOTE, one of a packed list, a box and the
+box and the threshold that remembers all that holds; NOTE, one of a face list, a box and the
 threshold that returns why that holds, a sentence."
   name arity dimension assert note)
 
@@ -34,12 +34,12 @@ THRESHOLD stands for the gripper's DIMENSION, a string, if there is one.  TEST i
 the assertion holds; PHRASE a form that returns why, a string.  Knowledge that is loaded from then on
 has the assertion."
   (let* ((places (ecase kind
-                   (:pair (list (pack '(0 1)) (pack '(2 3)) (pack '(4 5))))
-                   (:face (loop for face below 6 collect (pack (list face))))
+                   (:pair (list (make-face-list '(0 1)) (make-face-list '(2 3)) (make-face-list '(4 5))))
+                   (:face (loop for face below 6 collect (make-face-list (list face))))
                    (:box '(0))))
          (values (ecase kind
-                   (:pair '((aref (%box-size box) (surface-axis (pack-ref packed 0))) box))
-                   (:face '((pack-ref packed 0) box))
+                   (:pair '((aref (%box-size box) (face-axis (face-list-ref face-list 0))) box))
+                   (:face '((face-list-ref face-list 0) box))
                    (:box '(box))))
          (bindings (loop for variable in variables for value in values
                          collect (list variable value))))
@@ -49,20 +49,20 @@ has the assertion."
        (lambda (memory predicate box ,threshold)
          (declare (type memory memory) (type predicate predicate) (type box box)
                   (double-float ,threshold) (ignorable box ,threshold))
-         (dolist (packed ',places)
-           (declare (type packed packed) (ignorable packed))
+         (dolist (face-list ',places)
+           (declare (type face-list face-list) (ignorable face-list))
            (let ,bindings
              (declare (ignorable ,@variables))
-             (when ,test (remember memory predicate packed)))))
-       (lambda (packed box ,threshold)
-         (declare (type packed packed) (ignorable packed box ,threshold))
+             (when ,test (remember memory predicate face-list)))))
+       (lambda (face-list box ,threshold)
+         (declare (type face-list face-list) (ignorable face-list box ,threshold))
          (let ,bindings
            (declare (ignorable ,@variables))
            ,phrase))))))
 
 (defun apart-text (distance relation dimension threshold)
   "Return that two faces are DISTANCE apart, which stands in RELATION to the DIMENSION, THRESHOLD."
-  (destructuring-bind (distance threshold) (figures distance threshold)
+  (destructuring-bind (distance threshold) (number-texts distance threshold)
     (format nil "they are ~a cm apart, ~a ~a, ~a" distance relation dimension threshold)))
 
 ;;; Their order is that of the predicates in a rule base.
@@ -88,8 +88,8 @@ has the assertion."
   "the box says so")
 
 (define-input "SLIPPERY" (:box box) (friction "SLIPPERY-U")
-  (<= (%box-u box) friction)
-  (apply #'format nil "u is ~a, no more than SLIPPERY-U, ~a" (figures (%box-u box) friction)))
+  (<= (%box-friction box) friction)
+  (apply #'format nil "u is ~a, no more than SLIPPERY-U, ~a" (number-texts (%box-friction box) friction)))
 
 ;;; Ready for a gripper
 

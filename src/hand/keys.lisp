@@ -42,9 +42,9 @@ value is among the others of the box, for BOX-VALUE."
 (define-box-key :weight :number "one number from 0, in finger forces" (0.2d0)
   :slot %box-weight :words "the weight")
 (define-box-key :u :number "one coefficient of friction from 0" (0.8d0)
-  :slot %box-u :words "the friction u")
+  :slot %box-friction :words "the friction u")
 (define-box-key :v :number "one coefficient of torsional friction from 0, in cm" (0.2d0)
-  :slot %box-v :words "the torsional friction v")
+  :slot %box-soft-friction :words "the torsional friction v")
 (define-box-key :constrained :faces "faces among X1 X2 Y1 Y2 Z1 Z2, or nothing" (:z2 :x1)
   :slot %box-constrained)
 (define-box-key :force-needed :needs "a list of six numbers from 0 to 1"
@@ -187,7 +187,7 @@ its clause, give.  NIL after a complaint."))
   (let ((set 0) (good t))
     (loop for value in values
           for number from 0
-          do (let ((face (and (namep value) (surface-index value))))
+          do (let ((face (and (namep value) (face-index value))))
                (cond ((null face)
                       (setf good (complain (value-spot row number)
                                            "~a is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 ~

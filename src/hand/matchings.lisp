@@ -1,19 +1,19 @@
 ;;;; matchings.lisp -- the 24 matchings between the faces of the box and those of the grasp.
 ;;;;
-;;;; The grasp has six faces of its own, the slots N1 N2 O1 O2 A1 A2, numbered 0 to 5.  A matching
-;;;; gives each slot a face of the box, so that N O A is a proper rotation of X Y Z.
+;;;; The grasp has six faces of its own, the grasp faces N1 N2 O1 O2 A1 A2, numbered 0 to 5.  A
+;;;; matching gives each of them a face of the box, so that N O A is a proper rotation of X Y Z.
 
 (in-package :supergrip)
 
-(defparameter +slots+ #(:n1 :n2 :o1 :o2 :a1 :a2)
+(defparameter +grasp-faces+ #(:n1 :n2 :o1 :o2 :a1 :a2)
   "The faces of a grasp.  N1 lies on the + side of the axis N, N2 on the - side, and so on.")
 
-(defun slot-index (name)
-  "Return the slot, 0 to 5, that NAME names, or NIL."
-  (and (namep name) (position (symbol-name name) +slots+ :test #'string=)))
+(defun grasp-face-index (name)
+  "Return the grasp face, 0 to 5, that NAME names, or NIL."
+  (and (namep name) (position (symbol-name name) +grasp-faces+ :test #'string=)))
 
 (defstruct matching
-  "FACES holds the box face of each slot; AXES, six, which axis of the box frame (0 to 5, see
+  "FACES holds the box face of each grasp face; AXES, six, which axis of the box frame (0 to 5, see
 AXIS-NAME) is that along, or about, each of N O A; SIGNS 1 where N, O, A points the way that its box
 axis does, -1 where it does not."
   (index 0 :type fixnum)
@@ -32,20 +32,20 @@ axis does, -1 where it does not."
 
 (defun third-face (n1 a1)
   "Return the face O1 that makes a proper rotation of N1 and A1."
-  (let* ((axis (- 3 (surface-axis n1) (surface-axis a1)))
-         (sign (* (surface-sign n1) (surface-sign a1)
-                  (permutation-sign (list (surface-axis n1) axis (surface-axis a1))))))
-    (find-if (lambda (face) (and (= (surface-axis face) axis) (= (surface-sign face) sign)))
+  (let* ((axis (- 3 (face-axis n1) (face-axis a1)))
+         (sign (* (face-sign n1) (face-sign a1)
+                  (permutation-sign (list (face-axis n1) axis (face-axis a1))))))
+    (find-if (lambda (face) (and (= (face-axis face) axis) (= (face-sign face) sign)))
              '(0 1 2 3 4 5))))
 
 (defun box-axes (faces)
   "Return the axes of the box frame along, then about which FACES, those of N1 O1 A1, lie."
-  (coerce (append (mapcar #'surface-axis faces)
-                  (loop for face in faces collect (+ 3 (surface-axis face))))
+  (coerce (append (mapcar #'face-axis faces)
+                  (loop for face in faces collect (+ 3 (face-axis face))))
           '(simple-array (unsigned-byte 8) (6))))
 
 (defun box-signs (faces)
-  (map '(simple-array double-float (3)) (lambda (face) (float (surface-sign face) 1d0)) faces))
+  (map '(simple-array double-float (3)) (lambda (face) (float (face-sign face) 1d0)) faces))
 
 (defun all-matchings ()
   "Return the 24 matchings in the order in which TRY enumerates them: N1, then A1, each in the
@@ -53,7 +53,7 @@ order of the faces; O follows."
   (let ((index -1))
     (coerce (loop for n1 below 6
                   append (loop for a1 below 6
-                               unless (= (surface-axis n1) (surface-axis a1))
+                               unless (= (face-axis n1) (face-axis a1))
                                  collect (let* ((o1 (third-face n1 a1))
                                                 (firsts (list n1 o1 a1)))
                                            (make-matching
@@ -73,25 +73,25 @@ order of the faces; O follows."
 
 (defparameter +all-matchings+ (1- (ash 1 24)) "The set of all matchings.")
 
-(defun matchings-with (slot face)
-  "Return the set of the matchings that give SLOT the box face FACE."
+(defun matchings-with (grasp-face face)
+  "Return the set of the matchings that give GRASP-FACE the box face FACE."
   (loop with set = 0
         for matching across +matchings+
-        when (= face (svref (matching-faces matching) slot))
+        when (= face (svref (matching-faces matching) grasp-face))
           do (setf set (logior set (ash 1 (matching-index matching))))
         finally (return set)))
 
 (defparameter +matchings-with+
   (let ((sets (make-array '(6 6) :element-type '(unsigned-byte 24))))
-    (dotimes (slot 6 sets)
+    (dotimes (grasp-face 6 sets)
       (dotimes (face 6)
-        (setf (aref sets slot face) (matchings-with slot face)))))
-  "The set of the matchings that give a slot (first index) a face of the box (second).")
+        (setf (aref sets grasp-face face) (matchings-with grasp-face face)))))
+  "The set of the matchings that give a grasp face (first index) a face of the box (second).")
 (declaim (type (simple-array (unsigned-byte 24) (6 6)) +matchings-with+))
 
 (defun turned (matching turn)
-  "Return MATCHING after a TURN of the grasp, a vector: slot i takes the face of slot TURN[i]."
-  (let ((faces (map 'simple-vector (lambda (slot) (svref (matching-faces matching) slot)) turn)))
+  "Return MATCHING after a TURN of the grasp, a vector: grasp face i takes the box face of TURN[i]."
+  (let ((faces (map 'simple-vector (lambda (grasp-face) (svref (matching-faces matching) grasp-face)) turn)))
     (find faces +matchings+ :key #'matching-faces :test #'equalp)))
 
 (defparameter +turns+
@@ -107,4 +107,4 @@ the corner of N1 O1 A1.")
 
 (defun matching-names (matching)
   "Return the names of the box faces of MATCHING, in the order N1 N2 O1 O2 A1 A2."
-  (map 'list #'surface-name (matching-faces matching)))
+  (map 'list #'face-name (matching-faces matching)))

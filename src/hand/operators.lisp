@@ -16,7 +16,7 @@
 (defconstant +u+ 0 "The register of U.")
 (defconstant +v+ 1 "The register of V.")
 (defconstant +distances+ 2 "The first of the registers of the distances along N, O, A.")
-(defconstant +blocked+ 5 "The first of six registers, 1 for a slot whose face is constrained.")
+(defconstant +blocked+ 5 "The first of six registers, 1 for a grasp-face whose face is constrained.")
 (defconstant +inputs-end+ 11 "The first register after the inputs.")
 
 (declaim (inline finite-p))

@@ -185,8 +185,8 @@ where it is true and where it is false, to the closure that decides."
     (:or (a b)
       (let ((first (write-test a code)) (second (write-test-aside b code)))
         (lambda (then else) (funcall first then (funcall second then else)))))
-    (:constrained (slot)
-      (lambda (then else) (constrained-step then else (+ +blocked+ slot))))
+    (:constrained (grasp-face)
+      (lambda (then else) (constrained-step then else (+ +blocked+ grasp-face))))
     (:comparison (comparison a b)
       (let ((a (write-number a code)) (b (write-number b code)))
         (lambda (then else) (funcall (comparison-step comparison) then else a b))))))
@@ -198,11 +198,11 @@ computes."
          (decide (write-test node code)))
     (lambda (then else) (link code (funcall decide then else)))))
 
-(defun constrained-step (then else slot)
-  (declare (function then else) (type register slot))
+(defun constrained-step (then else grasp-face)
+  (declare (function then else) (type register grasp-face))
   (lambda (registers)
     (declare (type registers registers))
-    (if (= 1d0 (aref registers slot)) (funcall then registers) (funcall else registers))))
+    (if (= 1d0 (aref registers grasp-face)) (funcall then registers) (funcall else registers))))
 
 ;;; Programs
 

@@ -34,7 +34,7 @@ rounded to DIGITS significant digits; M ends in no zero."
              (concatenate 'string (subseq digits 0 point) "." (subseq digits point)))
             (t (concatenate 'string "0." (zeros (- point)) digits))))))
 
-(defun figure (number &optional (digits 4))
+(defun number-text (number &optional (digits 4))
   "Return NUMBER for a report: DIGITS significant digits at most, but all of those before the point of
 a number up to a million."
   (let ((size (abs number)))
@@ -46,10 +46,10 @@ a number up to a million."
                                                       digits))
                (plain-text "~:[~;-~]~a" (minusp number) (decimal-text whole exponent)))))))
 
-(defun figures (&rest numbers)
+(defun number-texts (&rest numbers)
   "Return texts of NUMBERS, with four significant digits, or as many more as show which differ."
   (loop for digits from 4
-        for texts = (loop for number in numbers collect (figure number digits))
+        for texts = (loop for number in numbers collect (number-text number digits))
         until (or (= digits 17)
                   (loop for (number . others) on numbers
                         for (text . other-texts) on texts
@@ -58,10 +58,10 @@ a number up to a million."
                                      always (or (= number other) (string/= text other-text)))))
         finally (return texts)))
 
-(defun figure-exact (number)
+(defun exact-number-text (number)
   "Return the shortest decimal that reads back as NUMBER, a double."
   (loop for digits from 1 to 17
-        for text = (figure number digits)
+        for text = (number-text number digits)
         when (eql number (as-double (first (read-all (string-source text))))) return text
         finally (return text)))
 

@@ -49,8 +49,8 @@
 (defun unit-vector (face sign)
   "Return the outward normal of the box face FACE, times SIGN, as a list along X Y Z."
   (loop for axis below 3
-        collect (if (= axis (surface-axis face))
-                    (coerce (* sign (surface-sign face)) 'double-float)
+        collect (if (= axis (face-axis face))
+                    (coerce (* sign (face-sign face)) 'double-float)
                     0d0)))
 
 (defun candidate-approach (candidate)
@@ -60,74 +60,74 @@ the box."
                       (grasp-palm (%candidate-grasp candidate)))
                -1))
 
-(defun replay (candidate attempt)
-  "Take CANDIDATE through the steps again, in ATTEMPT, at its box; return ATTEMPT, which holds its
+(defun replay (candidate workspace)
+  "Take CANDIDATE through the steps again, in WORKSPACE, at its box; return WORKSPACE, which holds its
 figures."
-  (run-steps attempt (make-candidate (%candidate-grasp candidate)
+  (run-steps workspace (make-candidate (%candidate-grasp candidate)
                                      (%candidate-matching candidate)))
-  attempt)
+  workspace)
 
-(defmacro with-attempt ((attempt plan) &body body)
-  "Run BODY with ATTEMPT, one at the box of PLAN, which is given back after it."
+(defmacro with-workspace ((workspace plan) &body body)
+  "Run BODY with WORKSPACE, one at the box of PLAN, which is given back after it."
   (let ((memory (gensym)) (the-plan (gensym)))
     `(without-float-traps
        (let* ((,the-plan (need-plan ,plan))
               (,memory (start-plan (plan-box ,the-plan) (plan-knowledge ,the-plan)
                                    (plan-gamma ,the-plan)))
-              (,attempt (memory-client ,memory)))
+              (,workspace (memory-client ,memory)))
          (multiple-value-prog1 (progn ,@body)
            (give-back ,memory (plan-knowledge ,the-plan)))))))
 
-(defmacro with-replay ((attempt candidate plan) &body body)
-  "Run BODY with ATTEMPT, which holds the figures of CANDIDATE of PLAN and is given back after it."
-  `(with-attempt (,attempt ,plan)
-     (replay ,candidate ,attempt)
+(defmacro with-replay ((workspace candidate plan) &body body)
+  "Run BODY with WORKSPACE, which holds the figures of CANDIDATE of PLAN and is given back after it."
+  `(with-workspace (,workspace ,plan)
+     (replay ,candidate ,workspace)
      ,@body))
 
 (defun candidate-contacts (candidate &optional (plan *plan*))
   "Return the contacts of CANDIDATE, which is possible in PLAN: a list of plists with :SURFACE, the
 name of a box face, :POSITION and :NORMAL, lists along X Y Z in the box frame at the box centre;
 positions in cm, the normals point inward."
-  (with-replay (attempt candidate plan)
-    (execute (grasp-positions (%candidate-grasp candidate)) (attempt-registers attempt))
-    (loop with registers = (attempt-registers attempt)
+  (with-replay (workspace candidate plan)
+    (execute (grasp-positions (%candidate-grasp candidate)) (workspace-registers workspace))
+    (loop with registers = (workspace-registers workspace)
           with matching = (%candidate-matching candidate)
-          for (slot p q) in (grasp-contacts (%candidate-grasp candidate))
-          for face = (svref (matching-faces matching) slot)
-          collect (list :surface (surface-name face)
-                        :position (contact-position attempt matching slot
+          for (grasp-face p q) in (grasp-contacts (%candidate-grasp candidate))
+          for face = (svref (matching-faces matching) grasp-face)
+          collect (list :surface (face-name face)
+                        :position (contact-position workspace matching grasp-face
                                                     (aref registers p) (aref registers q))
                         :normal (unit-vector face -1)))))
 
-(defun contact-position (attempt matching slot p q)
-  "Return the place, along X Y Z, of a finger on SLOT at P, Q along its two other axes."
+(defun contact-position (workspace matching grasp-face p q)
+  "Return the place, along X Y Z, of a finger on GRASP-FACE at P, Q along its two other axes."
   (let ((position (make-list 3))
         (rest (list p q)))
     (dotimes (i 3 position)
       (setf (nth (aref (matching-axes matching) i) position)
             (without-sign-of-zero
              (* (aref (matching-signs matching) i)
-                (if (= i (floor slot 2))
-                    (* (if (evenp slot) 0.5d0 -0.5d0) (aref (attempt-lengths attempt) i))
-                    (+ (aref (attempt-centre attempt) i) (pop rest)))))))))
+                (if (= i (floor grasp-face 2))
+                    (* (if (evenp grasp-face) 0.5d0 -0.5d0) (aref (workspace-lengths workspace) i))
+                    (+ (aref (workspace-centre workspace) i) (pop rest)))))))))
 
 (defun candidate-wrench (candidate &optional (plan *plan*))
   "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, gravity's load not taken off:
 six numbers, forces in finger forces, torques in finger force x cm.  NIL where it failed before."
   (and (member (candidate-outcome candidate) '(:possible :lifting))
-       (with-replay (attempt candidate plan)
-         (coerce (attempt-wrench attempt) 'list))))
+       (with-replay (workspace candidate plan)
+         (coerce (workspace-wrench workspace) 'list))))
 
 (defun candidate-twist (candidate &optional (plan *plan*))
   "Return the mobility of CANDIDATE of PLAN along X Y Z and about X Y Z, six numbers.
 NIL where it failed before."
   (and (member (candidate-outcome candidate) '(:possible :lifting))
-       (with-replay (attempt candidate plan)
-         (coerce (attempt-twist attempt) 'list))))
+       (with-replay (workspace candidate plan)
+         (coerce (workspace-twist workspace) 'list))))
 
 (defun candidate-palm (candidate)
   "Return the name of the box face that the palm of CANDIDATE is over."
-  (surface-name (svref (matching-faces (%candidate-matching candidate))
+  (face-name (svref (matching-faces (%candidate-matching candidate))
                        (grasp-palm (%candidate-grasp candidate)))))
 
 (defun six-at-centre (function given candidate)

@@ -67,7 +67,7 @@ more."
   "What was decided for a box, and all that led to it."
   (box nil :type box) (knowledge nil :type knowledge) (gamma 0.5d0 :type double-float)
   (stop nil) (best nil) (log '() :type list) (facts nil :type (or null saved-facts))
-  (alone nil))                          ; the name of the grasp that was tried without rules
+  (only-grasp nil))                          ; the name of the grasp that was tried without rules
 
 (defun need-plan (plan)
   (if (plan-p plan) plan (error 'no-plan-error :given plan)))
@@ -85,10 +85,10 @@ A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from se
 gave, in which no rule has run: the grasp NAME, a string or a symbol, was tried in all matchings that
 use no constrained face, equivalent ones once.  Other arguments as for PLAN."
   (if (or (null arguments) (keywordp (first arguments)))
-      (apply #'try-alone name (need-box) arguments)
-      (apply #'try-alone name arguments)))
+      (apply #'try-only name (need-box) arguments)
+      (apply #'try-only name arguments)))
 
-(defun try-alone (name box &key (knowledge *knowledge*) (gamma *gamma*))
+(defun try-only (name box &key (knowledge *knowledge*) (gamma *gamma*))
   (with-plain-floats
     (let ((grasp (or (and (name-of name)
                           (find-grasp (knowledge-graspbase knowledge) (name-of name)))
@@ -109,13 +109,13 @@ use no constrained face, equivalent ones once.  Other arguments as for PLAN."
   (:documentation "A grasp was named that the database lacks."))
 
 (defun new-memory (knowledge)
-  "Return a memory for the rules of KNOWLEDGE, whose client is an attempt with its grasps."
-  (make-memory (knowledge-rulebase knowledge) (make-attempt (knowledge-graspbase knowledge))))
+  "Return a memory for the rules of KNOWLEDGE, whose client is an workspace with its grasps."
+  (make-memory (knowledge-rulebase knowledge) (make-workspace (knowledge-graspbase knowledge))))
 
 (defun prepare-memory (memory box knowledge gamma)
   "Make MEMORY, an empty one, ready for a plan for BOX: it holds the preliminary assertions, and its
-attempt has tried nothing yet.  Return it."
-  (start-attempt (memory-client memory) box gamma)
+workspace has tried nothing yet.  Return it."
+  (start-workspace (memory-client memory) box gamma)
   (assert-box memory (knowledge-inputs knowledge) box)
   memory)
 
@@ -129,19 +129,19 @@ attempt has tried nothing yet.  Return it."
 (defun give-back (memory knowledge)
   "Let another plan use MEMORY."
   (clear-memory memory (knowledge-rulebase knowledge))
-  (setf (attempt-box (memory-client memory)) nil
-        (attempt-best (memory-client memory)) nil)
+  (setf (workspace-box (memory-client memory)) nil
+        (workspace-best (memory-client memory)) nil)
   (give-to (knowledge-spare knowledge) memory))
 
-(defun finish-plan (memory knowledge stop &optional alone)
-  "Return the plan that MEMORY holds, of the grasp ALONE if no rule has run, and give MEMORY back.
+(defun finish-plan (memory knowledge stop &optional only-grasp)
+  "Return the plan that MEMORY holds, of the ONLY-GRASP if no rule has run, and give MEMORY back.
 Rules that end without KEEP or CANT keep the best."
-  (let ((attempt (memory-client memory)))
-    (declare (type attempt attempt))
-    (prog1 (%make-plan :box (attempt-box attempt) :knowledge knowledge
-                       :gamma (attempt-gamma attempt) :stop stop :alone alone
+  (let ((workspace (memory-client memory)))
+    (declare (type workspace workspace))
+    (prog1 (%make-plan :box (workspace-box workspace) :knowledge knowledge
+                       :gamma (workspace-gamma workspace) :stop stop :only-grasp only-grasp
                        :best (and (not (and stop (eq (stop-verdict stop) :cant)))
-                                  (attempt-best attempt))
+                                  (workspace-best workspace))
                        :log (nreverse (memory-log memory)) :facts (save-facts memory))
       (give-back memory knowledge))))
 

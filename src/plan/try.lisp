@@ -29,7 +29,7 @@
 (defun make-six () (make-array 6 :element-type 'double-float :initial-element 0d0))
 (defun make-three () (make-array 3 :element-type 'double-float :initial-element 0d0))
 
-(defstruct (attempt (:constructor %make-attempt (registers tried)))
+(defstruct (workspace (:constructor %make-workspace (registers tried)))
   "All that trying grasps on one box needs and leaves: the registers, what was tried of each grasp
 (a set of matchings), and the BEST candidate.  The arrays are the current candidate's, in the box
 frame: WRENCH and TWIST what the grasp can do, LOAD what gravity asks, SPARE what it leaves of
@@ -44,53 +44,53 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   (load (make-six) :type six) (spare (make-six) :type six)
   (force-needs (make-six) :type six) (velocity-needs (make-six) :type six))
 
-(defmethod print-object ((attempt attempt) stream)
-  (print-unreadable-object (attempt stream :type t)
+(defmethod print-object ((workspace workspace) stream)
+  (print-unreadable-object (workspace stream :type t)
     (plainly
-      (format stream "~@[at ~a~]" (attempt-box attempt)))))
+      (format stream "~@[at ~a~]" (workspace-box workspace)))))
 
-(defun make-attempt (graspbase)
-  "Return an attempt with the grasps of GRASPBASE, at no box yet."
-  (%make-attempt (copy-seq (graspbase-registers graspbase))
+(defun make-workspace (graspbase)
+  "Return an workspace with the grasps of GRASPBASE, at no box yet."
+  (%make-workspace (copy-seq (graspbase-registers graspbase))
                  (make-array (length (graspbase-grasps graspbase))
                              :element-type '(unsigned-byte 24))))
 
-(defun start-attempt (attempt box gamma)
-  "Make ATTEMPT, which may have been used, one at BOX with nothing tried yet.  Return it."
-  (declare (type attempt attempt) (type box box))
-  (setf (attempt-box attempt) box
-        (attempt-gamma attempt) gamma
-        (attempt-best attempt) nil
-        (aref (attempt-registers attempt) +u+) (%box-u box)
-        (aref (attempt-registers attempt) +v+) (%box-v box))
-  (fill (attempt-tried attempt) 0)
-  attempt)
+(defun start-workspace (workspace box gamma)
+  "Make WORKSPACE, which may have been used, one at BOX with nothing tried yet.  Return it."
+  (declare (type workspace workspace) (type box box))
+  (setf (workspace-box workspace) box
+        (workspace-gamma workspace) gamma
+        (workspace-best workspace) nil
+        (aref (workspace-registers workspace) +u+) (%box-friction box)
+        (aref (workspace-registers workspace) +v+) (%box-soft-friction box))
+  (fill (workspace-tried workspace) 0)
+  workspace)
 
 ;;; The steps.  Each returns true if the candidate passes.
 
-(defun place-box (attempt matching)
+(defun place-box (workspace matching)
   "Put the distances of the faces, and which are constrained, into the registers."
-  (declare (type attempt attempt) (type matching matching))
-  (let* ((registers (attempt-registers attempt))
-         (box (attempt-box attempt))
+  (declare (type workspace workspace) (type matching matching))
+  (let* ((registers (workspace-registers workspace))
+         (box (workspace-box workspace))
          (size (%box-size box))
          (constrained (%box-constrained box)))
     (dotimes (i 3)
       (let ((length (aref size (aref (matching-axes matching) i))))
-        (setf (aref (attempt-lengths attempt) i) length
+        (setf (aref (workspace-lengths workspace) i) length
               (aref registers (+ +distances+ i)) length)))
-    (dotimes (slot 6)
-      (setf (aref registers (+ +blocked+ slot))
-            (if (logbitp (the surface (svref (matching-faces matching) slot)) constrained)
+    (dotimes (grasp-face 6)
+      (setf (aref registers (+ +blocked+ grasp-face))
+            (if (logbitp (the face (svref (matching-faces matching) grasp-face)) constrained)
                 1d0 0d0)))))
 
-(defun find-centre (attempt grasp)
-  "Put the grasp centre, in the grasp frame from the box centre, into the attempt.
+(defun find-centre (workspace grasp)
+  "Put the grasp centre, in the grasp frame from the box centre, into the workspace.
 Entries for opposite faces say the same shift, so they must be opposite numbers."
-  (declare (type attempt attempt))
-  (let* ((registers (attempt-registers attempt))
+  (declare (type workspace workspace))
+  (let* ((registers (workspace-registers workspace))
          (results (program-results (grasp-offset grasp)))
-         (centre (attempt-centre attempt)))
+         (centre (workspace-centre workspace)))
     (and (execute (grasp-offset grasp) registers)
          (dotimes (i 3 t)
            (let* ((plus (aref registers (aref results (* 2 i))))
@@ -105,12 +105,12 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
   (declare (double-float place length))
   (<= (abs place) (* 0.5d0 length (+ 1d0 1d-9))))
 
-(defun fingers-on-faces-p (attempt grasp)
+(defun fingers-on-faces-p (workspace grasp)
   "True if every finger is inside the edges of its face."
-  (declare (type attempt attempt))
-  (let ((registers (attempt-registers attempt))
-        (centre (attempt-centre attempt))
-        (lengths (attempt-lengths attempt)))
+  (declare (type workspace workspace))
+  (let ((registers (workspace-registers workspace))
+        (centre (workspace-centre workspace))
+        (lengths (workspace-lengths workspace)))
     (and (execute (grasp-positions grasp) registers)
          (loop with places = (grasp-places grasp)
                for place from 0 below (length places) by 2
@@ -119,10 +119,10 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
                         (inside-p (+ (aref centre axis) (aref registers register))
                                   (aref lengths axis)))))))
 
-(defun compute-capacities (attempt grasp matching)
-  "Put wrench and twist, rotated to X Y Z, into the attempt.  True if the grasp is closed."
-  (declare (type attempt attempt) (type matching matching))
-  (let ((registers (attempt-registers attempt)))
+(defun compute-capacities (workspace grasp matching)
+  "Put wrench and twist, rotated to X Y Z, into the workspace.  True if the grasp is closed."
+  (declare (type workspace workspace) (type matching matching))
+  (let ((registers (workspace-registers workspace)))
     (flet ((rotate (program out least)
              (declare (type six out) (double-float least))
              (and (execute program registers)
@@ -130,16 +130,16 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
                     (let ((entry (aref registers (aref (program-results program) i))))
                       (unless (> entry least) (return nil))
                       (setf (aref out (aref (matching-axes matching) i)) entry))))))
-      (and (rotate (grasp-wrench grasp) (attempt-wrench attempt) 0d0)
-           (rotate (grasp-twist grasp) (attempt-twist attempt) -1d-300)))))
+      (and (rotate (grasp-wrench grasp) (workspace-wrench workspace) 0d0)
+           (rotate (grasp-twist grasp) (workspace-twist workspace) -1d-300)))))
 
-(defun turn-centre (attempt matching candidate)
+(defun turn-centre (workspace matching candidate)
   "Put the grasp centre into CANDIDATE, in the box frame."
-  (declare (type attempt attempt) (type matching matching) (type candidate candidate))
-  (let ((offset (attempt-offset attempt)))
+  (declare (type workspace workspace) (type matching matching) (type candidate candidate))
+  (let ((offset (workspace-offset workspace)))
     (dotimes (i 3)
       (setf (aref offset (aref (matching-axes matching) i))
-            (* (aref (matching-signs matching) i) (aref (attempt-centre attempt) i))))
+            (* (aref (matching-signs matching) i) (aref (workspace-centre workspace) i))))
     (setf (%candidate-x candidate) (aref offset 0)
           (%candidate-y candidate) (aref offset 1)
           (%candidate-z candidate) (aref offset 2))
@@ -147,44 +147,44 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
     (dotimes (i 3)
       (setf (aref offset i) (abs (aref offset i))))))
 
-(defun bears-load-p (attempt)
-  "Put gravity's load into the attempt.  True if the wrench bears it.
+(defun bears-load-p (workspace)
+  "Put gravity's load into the workspace.  True if the wrench bears it.
 Each axis may be loaded by a share of what the grasp bears there alone; the shares may not exceed 1
 together, since the axes use the same friction.  Sound: the six capacities, both ways, span a
 cross-polytope of wrenches that the contacts can exert."
-  (let ((load (attempt-load attempt))
-        (wrench (attempt-wrench attempt))
+  (let ((load (workspace-load workspace))
+        (wrench (workspace-wrench workspace))
         (shares 0d0))
     (declare (double-float shares))
-    (put-load (%box-weight (attempt-box attempt)) (attempt-offset attempt) load)
+    (put-load (%box-weight (workspace-box workspace)) (workspace-offset workspace) load)
     (dotimes (axis 6 (<= shares 1d0))
       (incf shares (/ (aref load axis) (aref wrench axis))))))
 
-(defun rate (attempt candidate)
+(defun rate (workspace candidate)
   "Compute the radii and the quality of CANDIDATE.  True if they are numbers in range."
-  (declare (type attempt attempt) (type candidate candidate))
-  (let ((box (attempt-box attempt))
-        (offset (attempt-offset attempt))
-        (spare (attempt-spare attempt)))
+  (declare (type workspace workspace) (type candidate candidate))
+  (let ((box (workspace-box workspace))
+        (offset (workspace-offset workspace))
+        (spare (workspace-spare workspace)))
     (dotimes (axis 6)
       (setf (aref spare axis)
-            (- (aref (attempt-wrench attempt) axis) (aref (attempt-load attempt) axis))))
-    (shift-force (%box-force box) offset (attempt-force-needs attempt))
-    (shift-velocity (%box-velocity box) offset (attempt-velocity-needs attempt))
+            (- (aref (workspace-wrench workspace) axis) (aref (workspace-load workspace) axis))))
+    (shift-force (%box-force box) offset (workspace-force-needs workspace))
+    (shift-velocity (%box-velocity box) offset (workspace-velocity-needs workspace))
     (multiple-value-bind (force-radius force-limit)
-        (embedded-radius (attempt-force-needs attempt) spare)
+        (embedded-radius (workspace-force-needs workspace) spare)
       (multiple-value-bind (velocity-radius velocity-limit)
-          (embedded-radius (attempt-velocity-needs attempt) (attempt-twist attempt))
+          (embedded-radius (workspace-velocity-needs workspace) (workspace-twist workspace))
         (setf (%candidate-force-radius candidate) force-radius
               (%candidate-force-limit candidate) force-limit
               (%candidate-velocity-radius candidate) velocity-radius
               (%candidate-velocity-limit candidate) velocity-limit
               (%candidate-quality candidate)
-              (quality-index (attempt-gamma attempt) velocity-radius velocity-limit
+              (quality-index (workspace-gamma workspace) velocity-radius velocity-limit
                              force-radius force-limit))
         (finite-p (%candidate-quality candidate))))))
 
-(defun run-steps (attempt candidate)
+(defun run-steps (workspace candidate)
   "Take CANDIDATE through the steps; its OUTCOME is the one it failed, or :POSSIBLE."
   (declare (type candidate candidate))
   (let ((grasp (%candidate-grasp candidate))
@@ -194,15 +194,15 @@ cross-polytope of wrenches that the contacts can exert."
                                collect `(progn (setf (%candidate-outcome candidate) ,outcome) ,step))
                        (setf (%candidate-outcome candidate) :possible))))
       (handler-case
-          (steps (:conditions (progn (place-box attempt matching)
+          (steps (:conditions (progn (place-box workspace matching)
                                      (execute (grasp-conditions grasp)
-                                          (attempt-registers attempt))))
-                 (:offset (find-centre attempt grasp))
-                 (:fingers (fingers-on-faces-p attempt grasp))
-                 (:open (compute-capacities attempt grasp matching))
-                 (:lifting (progn (turn-centre attempt matching candidate)
-                                  (bears-load-p attempt)))
-                 (:open (rate attempt candidate)))
+                                          (workspace-registers workspace))))
+                 (:offset (find-centre workspace grasp))
+                 (:fingers (fingers-on-faces-p workspace grasp))
+                 (:open (compute-capacities workspace grasp matching))
+                 (:lifting (progn (turn-centre workspace matching candidate)
+                                  (bears-load-p workspace)))
+                 (:open (rate workspace candidate)))
         ;; What has no value fails the step that it stands in.  The steps find it out by themselves;
         ;; where a float trap is enabled, it may come first.
         (arithmetic-error () nil)))))
@@ -211,60 +211,60 @@ cross-polytope of wrenches that the contacts can exert."
 
 (defconstant +tie+ 1d-9 "Qualities that differ by no more are equal.")
 
-(defun try-matching (attempt grasp matching)
+(defun try-matching (workspace grasp matching)
   "Try GRASP in MATCHING, and return the candidate."
   (let ((candidate (make-candidate grasp matching)))
-    (run-steps attempt candidate)
+    (run-steps workspace candidate)
     (when (eq (%candidate-outcome candidate) :possible)
-      (let ((best (attempt-best attempt)))
+      (let ((best (workspace-best workspace)))
         (when (or (null best)
                   (> (%candidate-quality candidate) (+ (%candidate-quality best) +tie+)))
-          (setf (attempt-best attempt) candidate))))
+          (setf (workspace-best workspace) candidate))))
     candidate))
 
 (defun try-matchings (memory grasp suggested)
-  "Try GRASP on the box of the attempt that is the client of MEMORY, in those matchings of the set
+  "Try GRASP on the box of the workspace that is the client of MEMORY, in those matchings of the set
 SUGGESTED that use no constrained face, and that neither they nor their equivalents were tried
 before.  The log of MEMORY gets the candidates."
   (declare (type grasp grasp) (type matching-set suggested))
-  (let* ((attempt (memory-client memory))
-         (tried (attempt-tried attempt))
+  (let* ((workspace (memory-client memory))
+         (tried (workspace-tried workspace))
          (index (grasp-index grasp))
          (open (logand suggested
-                       (aref (grasp-usable grasp) (%box-constrained (attempt-box attempt))))))
-    (declare (type attempt attempt) (type matching-set open))
+                       (aref (grasp-usable grasp) (%box-constrained (workspace-box workspace))))))
+    (declare (type workspace workspace) (type matching-set open))
     (loop
       (let ((left (logandc2 open (aref tried index))))
         (declare (type matching-set left))
         (when (zerop left) (return))
         (let ((matching (1- (integer-length (logand left (- left))))))
           (setf (aref tried index) (logior (aref tried index) (aref (grasp-same grasp) matching)))
-          (push (try-matching attempt grasp (svref +matchings+ matching))
+          (push (try-matching workspace grasp (svref +matchings+ matching))
                 (memory-log memory)))))))
 
 ;;; The actions
 
 (defun constant-matchings (terms)
-  "Return the set of the matchings that give the slots the faces among TERMS, six of them, NIL for
+  "Return the set of the matchings that give the grasp-faces the faces among TERMS, six of them, NIL for
 any."
   (reduce #'logand (loop for term in terms
-                         for slot from 0
+                         for grasp-face from 0
                          when (and term (not (term-variable-p term)))
-                           collect (aref +matchings-with+ slot (term-value term 0)))
+                           collect (aref +matchings-with+ grasp-face (term-value term 0)))
           :initial-value +all-matchings+))
 
-(defun variable-slots (terms)
-  "Return a list of (SLOT . TERM) for those of TERMS, six, that are variables."
+(defun variable-faces (terms)
+  "Return a list of (GRASP-FACE . TERM) for those of TERMS, six, that are variables."
   (loop for term in terms
-        for slot from 0
-        when (and term (term-variable-p term)) collect (cons slot term)))
+        for grasp-face from 0
+        when (and term (term-variable-p term)) collect (cons grasp-face term)))
 
-(defun suggested-matchings (set slots binding)
-  "Return those of the matchings SET that give SLOTS, a list of (SLOT . VARIABLE), the faces that the
+(defun suggested-matchings (set grasp-faces binding)
+  "Return those of the matchings SET that give GRASP-FACES, a list of (GRASP-FACE . VARIABLE), the faces that the
 variables have under BINDING."
   (declare (type matching-set set))
-  (loop for (slot . variable) of-type ((integer 0 5) . (integer 0 5)) in slots
-        do (setf set (logand set (aref +matchings-with+ slot (term-value variable binding)))))
+  (loop for (grasp-face . variable) of-type ((integer 0 5) . (integer 0 5)) in grasp-faces
+        do (setf set (logand set (aref +matchings-with+ grasp-face (term-value variable binding)))))
   set)
 
 (defun parse-suggestion (operands action)
@@ -297,9 +297,9 @@ return true as the second value."
             (action-terms action) terms
             (action-function action)
             (let ((set (constant-matchings terms))
-                  (slots (variable-slots terms)))
+                  (grasp-faces (variable-faces terms)))
               (lambda (memory binding)
-                (try-matchings memory grasp (suggested-matchings set slots binding))
+                (try-matchings memory grasp (suggested-matchings set grasp-faces binding))
                 nil))))))
 
 (defmethod action-mentions ((verb (eql :try)) operands)
@@ -309,8 +309,8 @@ return true as the second value."
   (destructuring-bind (grasp &optional suggestion) (action-operands action)
     (format nil "try ~a~@[ with ~{~a~^, ~}~]" grasp
             (loop for element in suggestion
-                  for slot across +slots+
-                  unless (name= element "?") collect (format nil "~a = ~a" slot element)))))
+                  for grasp-face across +grasp-faces+
+                  unless (name= element "?") collect (format nil "~a = ~a" grasp-face element)))))
 
 (define-action :try (action rulebase)
   (let* ((name (first (action-operands action)))

@@ -58,7 +58,7 @@ difference."
   (let ((texts (loop for quality in (list old new)
                      collect (and quality (three-decimals quality)))))
     (if (and old new (/= old new) (string= (first texts) (second texts)))
-        (figures old new)
+        (number-texts old new)
         texts)))
 
 (defun write-difference (difference stream)
@@ -69,6 +69,6 @@ difference."
         (format stream "~a: ~:[can't~*~;~:*~a Q=~a~], was ~:[can't~*~;~:*~a Q=~a~]~%"
                 (or (box-name (difference-box difference))
                     (format nil "~{~a~^ x ~} cm"
-                            (mapcar #'figure (box-size (difference-box difference)))))
+                            (mapcar #'number-text (box-size (difference-box difference)))))
                 (and new-quality (choice-text new)) new-quality
                 (and old-quality (choice-text old)) old-quality)))))

@@ -80,16 +80,16 @@ rule, CONTINUE to the next break."))
 
 (defun fact-broken-p (event rulebase)
   "True if the fact of EVENT is one to stop on, its faces in any order."
-  (multiple-value-bind (predicate packed) (event-fact event rulebase)
-    (some (lambda (text) (fact-matches-p text predicate packed)) *breaks*)))
+  (multiple-value-bind (predicate face-list) (event-fact event rulebase)
+    (some (lambda (text) (fact-matches-p text predicate face-list)) *breaks*)))
 
-(defun fact-matches-p (text predicate packed)
+(defun fact-matches-p (text predicate face-list)
   (let* ((form (and (char= (char text 0) #\()
                     (first (read-all (string-source text)))))
          (faces (find-if #'consp form)))
     (and form
          (equal (mapcar #'symbol-name (remove-if #'consp form)) (predicate-words predicate))
-         (null (set-exclusive-or (mapcar #'symbol-name faces) (pack-names packed)
+         (null (set-exclusive-or (mapcar #'symbol-name faces) (face-list-names face-list)
                                  :test #'string=)))))
 
 (defun next-rule ()
@@ -169,9 +169,9 @@ for."
 and the memory that the rules run on.  RUN-OBSERVED gets ARGUMENTS, too."
   (with-plain-floats
     (let* ((memory (start-plan box knowledge gamma))
-           (attempt (memory-client memory))
-           (unfinished (%make-plan :box (attempt-box attempt) :knowledge knowledge
-                                   :gamma (attempt-gamma attempt))))
+           (workspace (memory-client memory))
+           (unfinished (%make-plan :box (workspace-box workspace) :knowledge knowledge
+                                   :gamma (workspace-gamma workspace))))
       (finish-plan memory knowledge
                    (apply #'run-observed (knowledge-rulebase knowledge) memory
                           (funcall make-observer unfinished memory) arguments)))))
@@ -180,7 +180,7 @@ and the memory that the rules run on.  RUN-OBSERVED gets ARGUMENTS, too."
   "Return PLAN, unfinished, as it is now on MEMORY: before RULE or, if that has BEGUN, within it."
   (%make-plan :box (plan-box plan) :knowledge (plan-knowledge plan) :gamma (plan-gamma plan)
               :stop (make-stop :verdict (if begun :within :before) :rule rule)
-              :best (attempt-best (memory-client memory))
+              :best (workspace-best (memory-client memory))
               :log (reverse (memory-log memory)) :facts (save-facts memory)))
 
 (defun traced-plan (box knowledge gamma level step stream)
@@ -201,7 +201,7 @@ and the memory that the rules run on.  RUN-OBSERVED gets ARGUMENTS, too."
 FACTS), empty if a grasp was tried alone.  MATCHES counts the bindings that met its first clause, its
 first two, and so on; FIRINGS its bindings; FACTS what it added."
   (let* ((plan (need-plan plan))
-         (counts (and (not (plan-alone plan)) (count-rules plan))))
+         (counts (and (not (plan-only-grasp plan)) (count-rules plan))))
     (format t "~12a ~8@a ~8@a ~8@a~%" "rule" "matches" "firings" "facts")
     (format t "~:{~12a ~8d ~8d ~8d~%~}" counts)
     counts))

@@ -4,10 +4,10 @@
 
 (defun write-event (event rulebase stream)
   "Write EVENT of a log, the fact that a rule remembered."
-  (multiple-value-bind (predicate packed) (event-fact event rulebase)
+  (multiple-value-bind (predicate face-list) (event-fact event rulebase)
     (format stream "(RULE ~a SAYS ~a~@[ (~{~a~^ ~})~])~%"
             (rule-name (event-rule event rulebase)) (predicate-text predicate)
-            (pack-names packed))))
+            (face-list-names face-list))))
 
 (defun write-candidate (candidate stream)
   "Write the line of CANDIDATE, if it is possible."

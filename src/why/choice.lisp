@@ -12,7 +12,7 @@ the effect of the offset, and the RADIUS."
 results.  BOX is the changed box; SIZE is how far from FROM the choice changes, not rounded."
   what from to box plan size)
 
-(defstruct (advice (:include explanation))
+(defstruct (choice (:include explanation))
   "Why the best grasp of PLAN is the best.  SENTENCE says how it holds the box; FORCE and VELOCITY are
 LIMITs or NIL; RUNNER-UP is the next candidate or NIL, MARGIN its distance in Q; CHANGES is a list
 of CHANGEs, the smallest first."
@@ -25,12 +25,12 @@ of CHANGEs, the smallest first."
 
 (defun fingers-on (grasp face-name)
   "Return what stands on each face that GRASP touches, and the face as FACE-NAME, a function of its
-slot, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
-  (loop with slots = (mapcar #'first (grasp-contacts grasp))
-        for slot in (remove-duplicates slots :from-end t)
-        for count = (count slot slots)
+grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
+  (loop with grasp-faces = (mapcar #'first (grasp-contacts grasp))
+        for grasp-face in (remove-duplicates grasp-faces :from-end t)
+        for count = (count grasp-face grasp-faces)
         collect (if (= count 1) "a finger" (format nil "~r fingers" count))
-        collect (funcall face-name slot)))
+        collect (funcall face-name grasp-face)))
 
 (defun grasp-sentence (candidate)
   "Return how CANDIDATE holds the box, in a sentence that a person would say."
@@ -39,8 +39,8 @@ slot, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
          (palm (svref faces (grasp-palm grasp))))
     (format nil "~a: ~{~a on ~a~^, ~}; the palm over ~a, coming from ~a"
             (grasp-name grasp)
-            (fingers-on grasp (lambda (slot) (surface-name (svref faces slot))))
-            (surface-name palm) (svref +approaches+ palm))))
+            (fingers-on grasp (lambda (grasp-face) (face-name (svref faces grasp-face))))
+            (face-name palm) (svref +approaches+ palm))))
 
 (defun limit-at (axis has needs radius)
   "Return the LIMIT of RADIUS on AXIS, 0 to 5, where the grasp HAS, and the task NEEDS, six numbers."
@@ -49,16 +49,16 @@ slot, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
 (defun force-limit (candidate plan)
   "Return the LIMIT of u_w of CANDIDATE, or NIL if no force is needed."
   (when (candidate-force-axis candidate)
-    (with-replay (attempt candidate plan)
-      (limit-at (%candidate-force-limit candidate) (attempt-spare attempt)
-                (attempt-force-needs attempt) (candidate-force-radius candidate)))))
+    (with-replay (workspace candidate plan)
+      (limit-at (%candidate-force-limit candidate) (workspace-spare workspace)
+                (workspace-force-needs workspace) (candidate-force-radius candidate)))))
 
 (defun velocity-limit (candidate plan)
   "Return the LIMIT of u_t of CANDIDATE, or NIL if no velocity is needed."
   (when (candidate-velocity-axis candidate)
-    (with-replay (attempt candidate plan)
-      (limit-at (%candidate-velocity-limit candidate) (attempt-twist attempt)
-                (attempt-velocity-needs attempt) (candidate-velocity-radius candidate)))))
+    (with-replay (workspace candidate plan)
+      (limit-at (%candidate-velocity-limit candidate) (workspace-twist workspace)
+                (workspace-velocity-needs workspace) (candidate-velocity-radius candidate)))))
 
 ;;; What would change the choice.  Each value of the task, the friction and the weight alone is moved
 ;;; away from what it is, until the plan chooses otherwise; then the place is found by halving.
@@ -93,8 +93,8 @@ slot, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
 
 (defun plan-like (plan box)
   "Return the plan for BOX, made as PLAN was."
-  (if (plan-alone plan)
-      (try-alone (plan-alone plan) box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))
+  (if (plan-only-grasp plan)
+      (try-only (plan-only-grasp plan) box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))
       (plan box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))))
 
 (defun find-change (plan row index)
@@ -163,13 +163,13 @@ OTHER-P is true, and false of the next one of as many digits towards FROM.  SAME
 
 ;;; The answer
 
-(defun advise (&optional (plan *plan*))
-  "Return the ADVICE on PLAN: why its best grasp is the best, and what would change the choice."
+(defun explain-choice (&optional (plan *plan*))
+  "Return the CHOICE on PLAN: why its best grasp is the best, and what would change the choice."
   (when (unfinished-p (need-plan plan))
     (refuse-argument "the run is not over, so nothing is the best yet"))
   (let* ((best (plan-best plan))
          (runner-up (second (plan-possible plan))))
-    (make-advice :plan plan
+    (make-choice :plan plan
                  :sentence (if best
                                (grasp-sentence best)
                                (format nil "The box can't be grasped: ~a" (plan-reason plan)))
@@ -184,39 +184,39 @@ OTHER-P is true, and false of the next one of as many digits towards FROM.  SAME
   "Print and return why the best grasp of PLAN is the best: how it holds the box, what limits it, the
 runner-up, and which single need, friction or weight would have to change, and to what, for the
 choice to change."
-  (print-answer (advise plan)))
+  (print-answer (explain-choice plan)))
 
-(defmethod write-answer ((answer advice) stream)
-  (format stream "~a.~%" (advice-sentence answer))
-  (write-limit "Force" "exerts" "beyond the weight's load" (advice-force answer) stream)
-  (write-limit "Velocity" "moves with" nil (advice-velocity answer) stream)
+(defmethod write-answer ((answer choice) stream)
+  (format stream "~a.~%" (choice-sentence answer))
+  (write-limit "Force" "exerts" "beyond the weight's load" (choice-force answer) stream)
+  (write-limit "Velocity" "moves with" nil (choice-velocity answer) stream)
   (write-meaning answer stream)
-  (when (advice-runner-up answer)
+  (when (choice-runner-up answer)
     (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, tried later~;Q ~a less~].~%"
-            (candidate-grasp (advice-runner-up answer))
-            (candidate-matching (advice-runner-up answer)) (> (advice-margin answer) +tie+)
-            (figure (advice-margin answer))))
-  (if (advice-changes answer)
-      (write-changes (advice-changes answer) stream)
+            (candidate-grasp (choice-runner-up answer))
+            (candidate-matching (choice-runner-up answer)) (> (choice-margin answer) +tie+)
+            (number-text (choice-margin answer))))
+  (if (choice-changes answer)
+      (write-changes (choice-changes answer) stream)
       (format stream "No single need, friction or weight would change the choice.~%")))
 
 (defun write-limit (kind verb beyond limit stream)
   (when limit
     (destructuring-bind (has needs radius one)
-        (figures (limit-has limit) (limit-needs limit) (limit-radius limit) 1)
+        (number-texts (limit-has limit) (limit-needs limit) (limit-radius limit) 1)
       (declare (ignore one))
       (format stream "~a is limited ~a: the grasp ~a ~a~@[ ~a~], the task needs ~a; radius ~a.~%" kind
               (limit-axis limit) verb has beyond needs radius))))
 
 (defun write-meaning (answer stream)
   "Write what a radius below 1, and Q, mean."
-  (loop for limit in (list (advice-force answer) (advice-velocity answer))
+  (loop for limit in (list (choice-force answer) (choice-velocity answer))
         for kind in '("force" "velocity")
         when (and limit (< (limit-radius limit) (- 1 +tie+)))
           do (format stream "The grasp gives only ~a of the ~a asked for, which is enough if the needs ~
                              only say what matters more.~%"
-                     (first (figures (limit-radius limit) 1)) kind))
-  (let ((best (plan-best (advice-plan answer))))
+                     (first (number-texts (limit-radius limit) 1)) kind))
+  (let ((best (plan-best (choice-plan answer))))
     (when best
       (format stream "Q, ~a, compares grasps for one task: it is no chance of success.~%"
               (three-decimals (candidate-quality best))))))
@@ -232,8 +232,8 @@ has, and what would then be chosen."
   (list (change-what change)
         (if (at-once-p (change-from change) (change-size change))
             "anything above 0"
-            (figure-exact (change-to change)))
-        (figure-exact (change-from change))
+            (exact-number-text (change-to change)))
+        (exact-number-text (change-from change))
         (choice-text (change-plan change))))
 
 (defun choice-text (plan)
@@ -241,5 +241,5 @@ has, and what would then be chosen."
       (format nil "~a (~{~a~^ ~})" (plan-grasp plan) (plan-matching plan))
       "it can't be grasped"))
 
-(defmethod topic ((explanation advice))
-  (choice-text (advice-plan explanation)))
+(defmethod topic ((explanation choice))
+  (choice-text (choice-plan explanation)))

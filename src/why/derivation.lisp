@@ -6,47 +6,51 @@
 (in-package :supergrip)
 
 (defstruct (derivation (:include explanation))
-  "How a fact is known.  PREDICATE and PACKED are the fact; RULE the rule that remembered it, under
+  "How a fact is known.  PREDICATE and FACE-LIST are the fact; RULE the rule that remembered it, under
 BINDING, NIL for an input; PARTS what met its clauses, DERIVATIONs and ASSUMPTIONs; NOTE, for an
 input, where it comes from."
-  predicate packed rule binding (parts '()) note)
+  predicate face-list rule binding (parts '()) note)
+
+(defun derivation-faces (derivation)
+  "Return the names of the faces of the fact that DERIVATION is about, a list of strings."
+  (face-list-names (derivation-face-list derivation)))
 
 (defstruct assumption
-  "A negation that was met: nothing said PREDICATE of the faces of PACKED when RULE was tried."
-  predicate packed rule)
+  "A negation that was met: nothing said PREDICATE of the faces of FACE-LIST when RULE was tried."
+  predicate face-list rule)
 
-(defun fact-event (plan predicate packed)
+(defun fact-event (plan predicate face-list)
   "Return the event that remembered the fact in PLAN, or NIL."
   (find-if (lambda (event)
              (and (integerp event)
                   (multiple-value-bind (other faces) (event-fact event (plan-rulebase plan))
-                    (and (eq other predicate) (= (pack-mask faces) (pack-mask packed))))))
+                    (and (eq other predicate) (= (face-list-mask faces) (face-list-mask face-list))))))
            (plan-log plan)))
 
-(defun input-note (predicate packed plan)
-  "Return why the preliminary assertion PREDICATE of PACKED holds in PLAN."
+(defun input-note (predicate face-list plan)
+  "Return why the preliminary assertion PREDICATE of FACE-LIST holds in PLAN."
   (let ((input (find predicate (knowledge-inputs (plan-knowledge plan))
                      :key #'prepared-input-predicate)))
     (if input
         (funcall (input-row-note (prepared-input-row input))
-                 packed (plan-box plan) (prepared-input-threshold input))
+                 face-list (plan-box plan) (prepared-input-threshold input))
         "an input")))
 
 ;;; A fact follows only from what was known before it, so the derivations of a whole log are made in its
 ;;; order, each from those before: however long a chain is, nothing nests.
 
-(defun fact-key (predicate packed)
-  (+ (* 64 (predicate-index predicate)) (pack-mask packed)))
+(defun fact-key (predicate face-list)
+  (+ (* 64 (predicate-index predicate)) (face-list-mask face-list)))
 
 (defun derivations (plan)
   "Return a table from FACT-KEYs to the derivations of all that the rules of PLAN remembered."
   (let ((table (make-hash-table)) (rulebase (plan-rulebase plan)) (memory (plan-memory plan)))
     (dolist (event (plan-log plan) table)
       (when (integerp event)
-        (multiple-value-bind (predicate packed) (event-fact event rulebase)
+        (multiple-value-bind (predicate face-list) (event-fact event rulebase)
           (let ((rule (event-rule event rulebase)) (binding (event-binding event)))
-            (setf (gethash (fact-key predicate packed) table)
-                  (make-derivation :predicate predicate :packed packed :rule rule :binding binding
+            (setf (gethash (fact-key predicate face-list) table)
+                  (make-derivation :predicate predicate :face-list face-list :rule rule :binding binding
                                    :parts (loop for clause in (rule-clauses rule)
                                                 collect (clause-part clause rule binding table
                                                                      memory plan))))))))))
@@ -54,21 +58,21 @@ input, where it comes from."
 (defun clause-part (clause rule binding table memory plan)
   "Return what met CLAUSE of RULE under BINDING: a derivation, from TABLE if it has it, or an
 assumption."
-  (let ((packed (instantiate (clause-terms clause) binding)))
+  (let ((face-list (instantiate (clause-terms clause) binding)))
     (if (clause-negated clause)
-        (make-assumption :predicate (clause-predicate clause) :packed packed :rule rule)
-        (derivation-in table (clause-predicate clause) packed memory plan))))
+        (make-assumption :predicate (clause-predicate clause) :face-list face-list :rule rule)
+        (derivation-in table (clause-predicate clause) face-list memory plan))))
 
-(defun derivation-in (table predicate packed memory plan)
+(defun derivation-in (table predicate face-list memory plan)
   "Return the derivation of a fact that MEMORY holds: from TABLE, or, for an input, a new one."
-  (or (gethash (fact-key predicate packed) table)
+  (or (gethash (fact-key predicate face-list) table)
       (make-derivation :predicate predicate
-                       :packed (find (pack-mask packed) (facts memory predicate) :key #'pack-mask)
-                       :note (input-note predicate packed plan))))
+                       :face-list (find (face-list-mask face-list) (facts memory predicate) :key #'face-list-mask)
+                       :note (input-note predicate face-list plan))))
 
-(defun derive (plan predicate packed)
+(defun derive (plan predicate face-list)
   "Return the derivation of a fact that is known at the end of PLAN."
-  (derivation-in (derivations plan) predicate packed (plan-memory plan) plan))
+  (derivation-in (derivations plan) predicate face-list (plan-memory plan) plan))
 
 (defmethod write-answer ((answer derivation) stream)
   (write-tree answer stream 0))
@@ -120,8 +124,8 @@ written, and how much is left out."
 (defun write-assumption (assumption stream depth)
   (write-indent stream depth)
   (format stream "not ~a: assumed, nothing had said so when ~a was tried"
-          (fact-text (assumption-predicate assumption) (assumption-packed assumption))
+          (fact-text (assumption-predicate assumption) (assumption-face-list assumption))
           (rule-name (assumption-rule assumption))))
 
 (defmethod topic ((explanation derivation))
-  (fact-text (derivation-predicate explanation) (derivation-packed explanation)))
+  (fact-text (derivation-predicate explanation) (derivation-face-list explanation)))

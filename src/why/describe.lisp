@@ -75,9 +75,9 @@ Returns the grasp."
       (write-grasp-form grasp stream)
       (write-comment (grasp-comment grasp) stream)
       (format stream "In words: ~{~a on ~a~^, ~}; the palm over ~a; ~{~a~^ ~} must be free.~%"
-              (fingers-on grasp (lambda (slot) (svref +slots+ slot)))
-              (svref +slots+ (grasp-palm grasp))
-              (mapcar (lambda (slot) (svref +slots+ slot)) (grasp-used grasp)))
+              (fingers-on grasp (lambda (grasp-face) (svref +grasp-faces+ grasp-face)))
+              (svref +grasp-faces+ (grasp-palm grasp))
+              (mapcar (lambda (grasp-face) (svref +grasp-faces+ grasp-face)) (grasp-used grasp)))
       (format stream "It is tried by ~a.~%"
               (listed (or (loop for rule in (knowledge-rules knowledge)
                                 when (find grasp (rule-actions rule) :key #'action-target)

@@ -57,9 +57,9 @@
 (defun plan-rulebase (plan)
   (knowledge-rulebase (plan-knowledge plan)))
 
-(defun fact-text (predicate packed)
-  "Return the sentence of PREDICATE and the faces of PACKED as a list in print."
-  (plain-text "(~a~@[ (~{~a~^ ~})~])" (predicate-text predicate) (pack-names packed)))
+(defun fact-text (predicate face-list)
+  "Return the sentence of PREDICATE and the faces of FACE-LIST as a list in print."
+  (plain-text "(~a~@[ (~{~a~^ ~})~])" (predicate-text predicate) (face-list-names face-list)))
 
 (defun write-indent (stream depth)
   (fresh-line stream)

@@ -2,39 +2,39 @@
 
 (in-package :supergrip)
 
-(defun describe-offset-failure (candidate attempt)
-  (if (has-value-p (grasp-offset (%candidate-grasp candidate)) (attempt-registers attempt))
+(defun describe-offset-failure (candidate workspace)
+  (if (has-value-p (grasp-offset (%candidate-grasp candidate)) (workspace-registers workspace))
       "OFFSET's entries for two opposite faces are not opposite numbers"
       "the fingers can't reach: a root or a quotient of OFFSET has no value"))
 
-(defun overhangs (candidate attempt)
-  "Return a list of (SHORTFALL SLOT AXIS PLACE LENGTH), one for each coordinate of a finger of CANDIDATE
+(defun overhangs (candidate workspace)
+  "Return a list of (SHORTFALL GRASP-FACE AXIS PLACE LENGTH), one for each coordinate of a finger of CANDIDATE
 that is beyond an edge of its face, the worst first; :NONE if a form has no value."
   (let* ((grasp (%candidate-grasp candidate))
-         (registers (attempt-registers attempt)))
+         (registers (workspace-registers workspace)))
     (if (has-value-p (grasp-positions grasp) registers)
         (stable-sort
-         (loop for (slot p q) in (grasp-contacts grasp)
-               append (loop for axis in (remove (floor slot 2) '(0 1 2))
+         (loop for (grasp-face p q) in (grasp-contacts grasp)
+               append (loop for axis in (remove (floor grasp-face 2) '(0 1 2))
                             for register in (list p q)
-                            for place = (+ (aref (attempt-centre attempt) axis)
+                            for place = (+ (aref (workspace-centre workspace) axis)
                                            (aref registers register))
-                            for length = (aref (attempt-lengths attempt) axis)
+                            for length = (aref (workspace-lengths workspace) axis)
                             unless (inside-p place length)
                               collect (list (relative-difference (abs place) (* 0.5d0 length))
-                                            slot axis place length)))
+                                            grasp-face axis place length)))
          #'> :key #'first)
         :none)))
 
-(defun describe-finger-failure (candidate attempt)
+(defun describe-finger-failure (candidate workspace)
   "Return which finger of CANDIDATE would stand farthest beyond an edge, and where."
-  (let ((overhangs (overhangs candidate attempt)))
+  (let ((overhangs (overhangs candidate workspace)))
     (if (consp overhangs)
-        (destructuring-bind (shortfall slot axis place length) (first overhangs)
+        (destructuring-bind (shortfall grasp-face axis place length) (first overhangs)
           (declare (ignore shortfall))
-          (destructuring-bind (place edge) (figures place (* (signum place) 0.5d0 length))
+          (destructuring-bind (place edge) (number-texts place (* (signum place) 0.5d0 length))
             (format nil "a finger on ~a would stand at ~a cm along ~a, beyond the edge at ~a"
-                    (face-of slot (%candidate-matching candidate)) place (char "NOA" axis) edge)))
+                    (face-of grasp-face (%candidate-matching candidate)) place (char "NOA" axis) edge)))
         "a form of CONTACTS has no value")))
 
 (defun closed-at-p (grasp registers u)
@@ -59,9 +59,9 @@ does not."
                      (setf low middle))))
       (values high low))))
 
-(defun describe-open (candidate attempt)
+(defun describe-open (candidate workspace)
   (let* ((grasp (%candidate-grasp candidate))
-         (registers (copy-seq (attempt-registers attempt)))
+         (registers (copy-seq (workspace-registers workspace)))
          (u (aref registers +u+)))
     (cond ((not (has-value-p (grasp-wrench grasp) registers)) "a form of WRENCH has no value")
           ((closed-at-p grasp registers u) "a form of TWIST, or the index, has no value in range")
@@ -69,7 +69,7 @@ does not."
            (multiple-value-bind (needed too-little) (closing-friction grasp registers)
              (if needed
                  (apply #'format nil "open: the contacts don't close on this shape; needs u > ~a, ~
-                                      has ~a" (figures too-little u))
+                                      has ~a" (number-texts too-little u))
                  "open: the contacts don't close on this shape with any friction"))))))
 
 (defun bounded (number)
@@ -79,43 +79,43 @@ does not."
 (defun bounded-ratio (a b)
   (bounded (/ a b)))
 
-(defun load-shares (attempt)
+(defun load-shares (workspace)
   "Return the shares, six, that the load takes of what the grasp bears alone on each axis."
-  (map 'list #'bounded-ratio (attempt-load attempt) (attempt-wrench attempt)))
+  (map 'list #'bounded-ratio (workspace-load workspace) (workspace-wrench workspace)))
 
 (defun total-share (shares)
   "Return the sum of SHARES, at most the greatest double."
   (bounded (reduce #'+ shares)))
 
-(defun describe-lifting-failure (attempt)
+(defun describe-lifting-failure (workspace)
   "Return in words that the load is too much: on one axis, or on several together."
-  (let* ((shares (load-shares attempt))
+  (let* ((shares (load-shares workspace))
          (worst (reduce #'max shares))
          (axis (position worst shares)))
     (if (> worst 1)
         (apply #'format nil "it can't hold the weight: the load ~a is ~a, the grasp bears ~a"
-               (axis-name axis) (figures (bounded (aref (attempt-load attempt) axis))
-                                         (aref (attempt-wrench attempt) axis)))
+               (axis-name axis) (number-texts (bounded (aref (workspace-load workspace) axis))
+                                         (aref (workspace-wrench workspace) axis)))
         (format nil "it can't hold the weight: the load takes ~{~a of what the grasp bears ~a~^, ~
                      ~}, together ~a; the axes share the same friction, so 1 is the most"
                 (loop for share in shares for axis from 0
-                      when (plusp share) collect (figure share) and collect (axis-name axis))
-                (first (figures (total-share shares) 1))))))
+                      when (plusp share) collect (number-text share) and collect (axis-name axis))
+                (first (number-texts (total-share shares) 1))))))
 
 (defun candidate-failure (candidate &optional (plan *plan*))
   "Return why CANDIDATE of PLAN is not possible: the step (see CANDIDATE-OUTCOME) and a sentence
 with the figures.  NIL if it is possible."
   (let ((outcome (candidate-outcome candidate)))
     (unless (eq outcome :possible)
-      (with-replay (attempt candidate plan)
+      (with-replay (workspace candidate plan)
         (values outcome
                 (plainly
                   (ecase outcome
-                    (:conditions (describe-condition-failure candidate attempt))
-                    (:offset (describe-offset-failure candidate attempt))
-                    (:fingers (describe-finger-failure candidate attempt))
-                    (:open (describe-open candidate attempt))
-                    (:lifting (describe-lifting-failure attempt)))))))))
+                    (:conditions (describe-condition-failure candidate workspace))
+                    (:offset (describe-offset-failure candidate workspace))
+                    (:fingers (describe-finger-failure candidate workspace))
+                    (:open (describe-open candidate workspace))
+                    (:lifting (describe-lifting-failure workspace)))))))))
 
 ;;; The nearest miss
 
@@ -133,22 +133,22 @@ does, or if it is no less than LEAST, unless that is NIL."
                              (closing-friction grasp registers)))))
     (if needed (- 1 (/ u needed)) 1)))
 
-(defun shortfalls (candidate attempt least)
+(defun shortfalls (candidate workspace least)
   "Return by how much CANDIDATE missed the step that it failed, a list to compare by MISSES-LESS-P.
 Each number is 0 to 1, relative; 1 where that can't be said, or, of friction, if it is no less than
 LEAST.  A candidate that one clear thing prevents is nearer than any other that fails CONDITIONS.
-ATTEMPT, at the box, is used to replay it."
+WORKSPACE, at the box, is used to replay it."
   (if (eq (candidate-outcome candidate) :conditions)
-      (let ((faults (candidate-faults candidate attempt)))
+      (let ((faults (candidate-faults candidate workspace)))
         (list* (if (clear-p faults) 0 1)
                (or (mapcar #'fault-shortfall faults) '(1))))
-      (let ((attempt (replay candidate attempt)))
+      (let ((workspace (replay candidate workspace)))
         (list (case (candidate-outcome candidate)
-                (:fingers (let ((overhangs (overhangs candidate attempt)))
+                (:fingers (let ((overhangs (overhangs candidate workspace)))
                             (if (consp overhangs) (first (first overhangs)) 1)))
                 (:open (friction-shortfall (%candidate-grasp candidate)
-                                           (copy-seq (attempt-registers attempt)) least))
-                (:lifting (- 1 (/ (total-share (load-shares attempt)))))
+                                           (copy-seq (workspace-registers workspace)) least))
+                (:lifting (- 1 (/ (total-share (load-shares workspace)))))
                 (t 1))))))
 
 (defun misses-less-p (a b)
@@ -159,23 +159,23 @@ ATTEMPT, at the box, is used to replay it."
         ((> (first a) (+ (first b) +tie+)) nil)
         (t (misses-less-p (rest a) (rest b)))))
 
-(defun nearest-of (candidates plan)
+(defun nearest-miss (candidates plan)
   "Return the one of CANDIDATES of PLAN that got farthest; of several, the one that missed by least."
   (let* ((step (find-if (lambda (step) (find step candidates :key #'candidate-outcome))
                         (reverse +steps+)))
          (best nil) (least nil))
-    (with-attempt (attempt plan)
+    (with-workspace (workspace plan)
       (dolist (candidate candidates best)
         (when (eq step (candidate-outcome candidate))
-          (let ((shortfalls (shortfalls candidate attempt (first least))))
+          (let ((shortfalls (shortfalls candidate workspace (first least))))
             (when (or (null best) (misses-less-p shortfalls least))
               (setf best candidate least shortfalls))))))))
 
 (defun miss-text (candidate plan)
   "Return why CANDIDATE, the nearest miss of PLAN, is not possible."
   (or (and (eq (candidate-outcome candidate) :conditions)
-           (with-attempt (attempt plan)
-             (too-wide-text candidate attempt)))
+           (with-workspace (workspace plan)
+             (too-wide-text candidate workspace)))
       (nth-value 1 (candidate-failure candidate plan))))
 
 (defun plan-reason (&optional (plan *plan*))
@@ -183,7 +183,7 @@ ATTEMPT, at the box, is used to replay it."
 NIL if it can."
   (let* ((stop (plan-stop (need-plan plan)))
          (said (and stop (eq (stop-verdict stop) :cant)))
-         (miss (and (not said) (not (plan-best plan)) (nearest-of (plan-candidates plan) plan))))
+         (miss (and (not said) (not (plan-best plan)) (nearest-miss (plan-candidates plan) plan))))
     (cond ((plan-best plan) nil)
           ((unfinished-p plan) "THE RUN IS NOT OVER")
           (said (plain-text "CANT ~{~a~^ ~}" (stop-words stop)))

@@ -44,7 +44,7 @@ NO-FACT-ERROR."
                                                (first (input-error-problems condition))))))))
 
 (defun parse-fact (form rulebase)
-  "Return the predicate and the packed faces that FORM, as (PARALLEL (Y2 Y1)), means in RULEBASE.  FORM
+  "Return the predicate and the face list that FORM, as (PARALLEL (Y2 Y1)), means in RULEBASE.  FORM
 may be a string, or have strings for names."
   (let* ((form (canonical-fact form))
          (lists (and (consp form) (remove-if-not #'consp form)))
@@ -52,7 +52,7 @@ may be a string, or have strings for names."
                                         collect (symbol-name word))))
          (predicate (find-predicate rulebase words))
          (faces (loop for face in (first lists)
-                      collect (and (namep face) (surface-index face)))))
+                      collect (and (namep face) (face-index face)))))
     (flet ((refuse (control &rest arguments)
              (error 'no-fact-error :form form :text (apply #'plain-text control arguments)))
            (known () (map 'list #'predicate-text (rulebase-predicates rulebase))))
@@ -73,28 +73,28 @@ may be a string, or have strings for names."
                  (/= (length faces) (predicate-arity predicate)))
              (refuse "~a takes ~[no surfaces~;one surface~:;~:*~d different surfaces~] of X1 X2 Y1 ~
                       Y2 Z1 Z2" (predicate-text predicate) (predicate-arity predicate)))
-            (t (values predicate (pack faces)))))))
+            (t (values predicate (make-face-list faces)))))))
 
 (defstruct (unknown-fact (:include explanation))
   "A fact that is not known at the end of a plan.  REFUSALS says why each rule that could have
 derived it did not, of many rules for the first; MORE is how many are left out."
-  predicate packed refusals (more 0))
+  predicate face-list refusals (more 0))
 
 (defparameter +most-refusals+ 20 "Of how many rules an answer says why they did not fire.")
 
 (defun explain-fact (form &optional (plan *plan*))
   "Return how the fact FORM came to be known in PLAN: a DERIVATION, or an UNKNOWN-FACT."
   (let ((plan (need-plan plan)))
-    (multiple-value-bind (predicate packed) (parse-fact form (plan-rulebase plan))
+    (multiple-value-bind (predicate face-list) (parse-fact form (plan-rulebase plan))
       (plainly
-        (if (recall (plan-memory plan) predicate packed)
-            (derive plan predicate packed)
+        (if (recall (plan-memory plan) predicate face-list)
+            (derive plan predicate face-list)
             (let* ((rules (deriving-rules predicate plan))
                    (most (min +most-refusals+ (length rules))))
-              (make-unknown-fact :predicate predicate :packed packed
+              (make-unknown-fact :predicate predicate :face-list face-list
                                  :more (- (length rules) most)
                                  :refusals (loop for rule in (subseq rules 0 most)
-                                                 collect (refuse-conclusion rule predicate packed
+                                                 collect (refuse-conclusion rule predicate face-list
                                                                             plan)))))))))
 
 (defun how (fact &optional (plan *plan*))
@@ -104,7 +104,7 @@ bindings and facts down to the box; negations as assumed when they were tested."
 
 (defmethod write-answer ((answer unknown-fact) stream)
   (format stream "~a is not known.~%"
-          (fact-text (unknown-fact-predicate answer) (unknown-fact-packed answer)))
+          (fact-text (unknown-fact-predicate answer) (unknown-fact-face-list answer)))
   (if (unknown-fact-refusals answer)
       (write-refusals (unknown-fact-refusals answer) (unknown-fact-more answer) stream)
       (format stream "It is an input, which this box does not give.~%")))
@@ -112,4 +112,4 @@ bindings and facts down to the box; negations as assumed when they were tested."
 ;;; In print
 
 (defmethod topic ((explanation unknown-fact))
-  (fact-text (unknown-fact-predicate explanation) (unknown-fact-packed explanation)))
+  (fact-text (unknown-fact-predicate explanation) (unknown-fact-face-list explanation)))

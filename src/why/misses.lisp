@@ -61,8 +61,8 @@ which hold what box and matching give: all that would have to change for it to b
       (:not (test) (faults test (not negated) grasp registers))
       (:and () (joined (not negated)))
       (:or () (joined negated))
-      (:constrained (slot)
-        (fault-if (eq negated (= 1d0 (aref registers (+ +blocked+ slot))))))
+      (:constrained (grasp-face)
+        (fault-if (eq negated (= 1d0 (aref registers (+ +blocked+ grasp-face))))))
       (:comparison ()
         (multiple-value-bind (a b) (comparison-operands node grasp registers)
           (if a
@@ -86,11 +86,11 @@ which hold what box and matching give: all that would have to change for it to b
 (defun worst-shortfall (faults)
   (reduce #'max faults :key #'fault-shortfall))
 
-(defun candidate-faults (candidate attempt)
-  "Return the faults of the conditions of CANDIDATE, the worst first; ATTEMPT is at its box."
+(defun candidate-faults (candidate workspace)
+  "Return the faults of the conditions of CANDIDATE, the worst first; WORKSPACE is at its box."
   (let ((grasp (%candidate-grasp candidate)))
-    (place-box attempt (%candidate-matching candidate))
-    (stable-sort (faults (grasp-conditions-node grasp) nil grasp (attempt-registers attempt))
+    (place-box workspace (%candidate-matching candidate))
+    (stable-sort (faults (grasp-conditions-node grasp) nil grasp (workspace-registers workspace))
                  #'> :key #'fault-shortfall)))
 
 ;;; What is compared
@@ -125,15 +125,15 @@ which hold what box and matching give: all that would have to change for it to b
 
 ;;; In words
 
-(defun face-of (slot matching)
-  (surface-name (svref (matching-faces matching) slot)))
+(defun face-of (grasp-face matching)
+  (face-name (svref (matching-faces matching) grasp-face)))
 
 (defun touched-face (axis grasp matching)
   "Return the name of the face on AXIS that a finger of GRASP touches, or those of both faces."
-  (let ((slots (remove-duplicates (loop for (slot) in (grasp-contacts grasp)
-                                        when (= axis (floor slot 2)) collect slot))))
-    (format nil "~{~a~^ or ~}" (loop for slot in (or slots (list (* 2 axis) (1+ (* 2 axis))))
-                                     collect (face-of slot matching)))))
+  (let ((grasp-faces (remove-duplicates (loop for (grasp-face) in (grasp-contacts grasp)
+                                        when (= axis (floor grasp-face 2)) collect grasp-face))))
+    (format nil "~{~a~^ or ~}" (loop for grasp-face in (or grasp-faces (list (* 2 axis) (1+ (* 2 axis))))
+                                     collect (face-of grasp-face matching)))))
 
 (defun input-names (node matching)
   "Return in words what of the box NODE is computed from."
@@ -214,7 +214,7 @@ exchanged if TURNED."
 
 (defun comparison-words (fault grasp matching)
   (multiple-value-bind (node number op other other-number form) (comparison-parts fault)
-    (destructuring-bind (text other-text) (figures number other-number)
+    (destructuring-bind (text other-text) (number-texts number other-number)
       (format nil "~a, ~a" (operand-words node text grasp matching)
               (demand-words node op other-text other form)))))
 
@@ -260,9 +260,9 @@ exchanged if TURNED."
                   collect (fault-words fault grasp matching))
             (max 0 left))))
 
-(defun describe-condition-failure (candidate attempt)
+(defun describe-condition-failure (candidate workspace)
   "Return all that is false in the conditions of CANDIDATE, the worst first."
-  (faults-words (or (candidate-faults candidate attempt)
+  (faults-words (or (candidate-faults candidate workspace)
                     (return-from describe-condition-failure "a form of CONDITIONS has no value"))
                 (%candidate-grasp candidate) (%candidate-matching candidate)))
 
@@ -278,20 +278,20 @@ exchanged if TURNED."
 (defun free-widths (box)
   "Return the sizes of BOX along the axes whose two faces are free."
   (loop for axis below 3
-        for faces = (loop for face below 6 when (= axis (surface-axis face)) collect face)
+        for faces = (loop for face below 6 when (= axis (face-axis face)) collect face)
         when (notany (lambda (face) (logbitp face (%box-constrained box))) faces)
           collect (aref (%box-size box) axis)))
 
-(defun too-wide-text (candidate attempt)
+(defun too-wide-text (candidate workspace)
   "Return that the narrowest free pair of faces is too wide for CANDIDATE, if that is why it failed."
-  (let ((faults (candidate-faults candidate attempt)))
+  (let ((faults (candidate-faults candidate workspace)))
     (when (clear-p faults)
       (multiple-value-bind (node number op other limit form) (comparison-parts (first faults))
         (let ((axis (distance-axis node)))
           (when (and axis (member op '("<" "<=") :test #'string=)
-                     (= number (reduce #'min (free-widths (attempt-box attempt))
+                     (= number (reduce #'min (free-widths (workspace-box workspace))
                                        :initial-value most-positive-double-float)))
-            (destructuring-bind (text limit-text) (figures number limit)
+            (destructuring-bind (text limit-text) (number-texts number limit)
               (format nil "the narrowest free pair, ~a, is ~a cm; ~a"
                       (char "XYZ" (aref (matching-axes (%candidate-matching candidate)) axis))
                       text (demand-words node op limit-text other form)))))))))

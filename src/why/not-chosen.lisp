@@ -31,7 +31,7 @@ TEXT is a sentence, PLAN the plan."
 
 (defun parse-matching (faces)
   "Return the matching of FACES, six strings, or NIL."
-  (let ((indices (mapcar #'surface-index faces)))
+  (let ((indices (mapcar #'face-index faces)))
     (find-if (lambda (matching) (equal indices (coerce (matching-faces matching) 'list)))
              +matchings+)))
 
@@ -44,7 +44,7 @@ TEXT is a sentence, PLAN the plan."
 (defun candidates-of (plan grasp)
   (remove grasp (plan-candidates plan) :key #'%candidate-grasp :test-not #'eq))
 
-(defun judge-candidate (candidate plan)
+(defun explain-candidate (candidate plan)
   "Return the NOT-CHOSEN of CANDIDATE, which was tried in PLAN."
   (let ((grasp (%candidate-grasp candidate))
         (matching (%candidate-matching candidate)))
@@ -67,15 +67,15 @@ TEXT is a sentence, PLAN the plan."
                   (format nil "its Q is ~a, as good as that of the best, which was tried before it"
                           (three-decimals (candidate-quality candidate))))
                  (t (format nil "its Q is ~a, ~a below ~a (~{~a~^ ~})"
-                            (three-decimals (candidate-quality candidate)) (figure margin)
+                            (three-decimals (candidate-quality candidate)) (number-text margin)
                             (candidate-grasp best) (candidate-matching best)))))))
 
 (defun used-and-constrained (grasp matching plan)
   "Return the names of the constrained faces that GRASP would use in MATCHING."
-  (loop for slot in (grasp-used grasp)
-        for face = (svref (matching-faces matching) slot)
+  (loop for grasp-face in (grasp-used grasp)
+        for face = (svref (matching-faces matching) grasp-face)
         when (logbitp face (%box-constrained (plan-box plan)))
-          collect (surface-name face)))
+          collect (face-name face)))
 
 (defun refuse-matching (grasp matching plan)
   "Return why GRASP in MATCHING is not the best of PLAN."
@@ -85,7 +85,7 @@ TEXT is a sentence, PLAN the plan."
                          (logbitp (matching-index (%candidate-matching other))
                                   (aref (grasp-same grasp) (matching-index matching))))
                        (candidates-of plan grasp))))
-    (cond (candidate (judge-candidate candidate plan))
+    (cond (candidate (explain-candidate candidate plan))
           (constrained
            (make-not-chosen :kind :constrained :grasp grasp :matching matching :faces constrained
                             :text (format nil "it would use ~{~a~^, ~}, constrained" constrained)))
@@ -96,9 +96,9 @@ TEXT is a sentence, PLAN the plan."
                                           (candidate-matching same))))
           (t (not-tried grasp matching plan)))))
 
-(defun would-be (grasp matching plan)
+(defun untried-candidates (grasp matching plan)
   "Return the candidates that trying GRASP, in MATCHING or in all, would have given, the best first."
-  (let* ((alone (try-alone grasp (plan-box plan) :knowledge (plan-knowledge plan)
+  (let* ((alone (try-only grasp (plan-box plan) :knowledge (plan-knowledge plan)
                                                  :gamma (plan-gamma plan)))
          (same (and matching (aref (grasp-same grasp) (matching-index matching)))))
     (remove-if-not (lambda (candidate)
@@ -109,7 +109,7 @@ TEXT is a sentence, PLAN the plan."
 (defun not-tried (grasp matching plan)
   "Return why no rule of PLAN tried GRASP in MATCHING, or at all."
   (let* ((rules (trying-rules grasp plan))
-         (candidates (would-be grasp matching plan))
+         (candidates (untried-candidates grasp matching plan))
          (most (min +most-refusals+ (length rules)))
          (refusals (loop for rule in (subseq rules 0 most) collect (refuse-rule rule plan))))
     (make-not-chosen
@@ -127,13 +127,13 @@ TEXT is a sentence, PLAN the plan."
   "Return why GRASP is not the best of PLAN: about its best candidate, or its nearest miss."
   (let* ((candidates (candidates-of plan grasp))
          (best (find grasp (plan-possible plan) :key #'%candidate-grasp))
-         (miss (and candidates (not best) (nearest-of candidates plan))))
+         (miss (and candidates (not best) (nearest-miss candidates plan))))
     (cond ((and (plan-best plan) (eq grasp (%candidate-grasp (plan-best plan))))
-           (judge-candidate (plan-best plan) plan))
-          ((or best miss) (judge-candidate (or best miss) plan))
+           (explain-candidate (plan-best plan) plan))
+          ((or best miss) (explain-candidate (or best miss) plan))
           (t (not-tried grasp nil plan)))))
 
-(defun explain-refusal (name &optional matching (plan *plan*))
+(defun explain-why-not (name &optional matching (plan *plan*))
   "Return why the rule NAME did not fire in PLAN, a REFUSAL, or why the grasp NAME, in MATCHING (six
 faces) if that is given, was not chosen, a NOT-CHOSEN."
   (let* ((plan (need-plan plan))
@@ -171,7 +171,7 @@ is HOW's.  PLAN may stand in the place of MATCHING."
       (if (plan-p matching) (values nil matching) (values matching plan))
     (if (or (consp name) (and (stringp name) (find #\( name)))
         (how name plan)
-        (print-answer (explain-refusal name matching plan)))))
+        (print-answer (explain-why-not name matching plan)))))
 
 (defmethod write-answer ((answer not-chosen) stream)
   (format stream "~a~@[ (~{~a~^ ~})~]: ~a.~%" (grasp-name (not-chosen-grasp answer))
@@ -180,11 +180,11 @@ is HOW's.  PLAN may stand in the place of MATCHING."
   (when (eq (not-chosen-kind answer) :not-tried)
     (write-refusals (not-chosen-refusals answer) (not-chosen-more answer) stream)
     (let ((candidates (not-chosen-candidates answer)) (plan (not-chosen-plan answer)))
-      (write-would-be (or (find :possible candidates :key #'candidate-outcome)
-                          (nearest-of candidates plan))
+      (write-untried (or (find :possible candidates :key #'candidate-outcome)
+                          (nearest-miss candidates plan))
                       plan stream))))
 
-(defun write-would-be (candidate plan stream)
+(defun write-untried (candidate plan stream)
   (if (eq (candidate-outcome candidate) :possible)
       (format stream "If tried it would be possible, with Q=~a in (~{~a~^ ~}).~%"
               (three-decimals (candidate-quality candidate)) (candidate-matching candidate))

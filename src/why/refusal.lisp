@@ -3,12 +3,12 @@
 (in-package :supergrip)
 
 (defstruct (refusal (:include explanation))
-  "Why RULE did not fire, or not for what was asked about.  ALONE is the name of the grasp that was
+  "Why RULE did not fire, or not for what was asked about.  ONLY-GRASP is the name of the grasp that was
 tried without rules.  FIRED holds the rule's bindings if it did fire; STOP is the STOP that ended the
 run before it, or before its action; else NUMBER counts its CLAUSE that failed, BINDINGS are those
 that met all clauses before, BLOCKS, for a negation, the derivations of the facts that contradict it
-under each, and ELSEWHERE is true if it fired for something else."
-  rule alone (fired '()) stop number clause (bindings '()) (blocks '()) elsewhere)
+under each, and FIRED-FOR-OTHERS is true if it fired for something else."
+  rule only-grasp (fired '()) stop number clause (bindings '()) (blocks '()) fired-for-others)
 
 (defun memory-before (plan rule)
   "Return the memory of PLAN as it was when RULE was tried, and, if it was not, the STOP before it."
@@ -22,25 +22,25 @@ under each, and ELSEWHERE is true if it fired for something else."
 (defun refuse-rule (rule plan)
   "Return the REFUSAL of RULE in PLAN."
   (multiple-value-bind (memory stop) (memory-before plan rule)
-    (cond ((plan-alone plan) (make-refusal :rule rule :alone (plan-alone plan)))
+    (cond ((plan-only-grasp plan) (make-refusal :rule rule :only-grasp (plan-only-grasp plan)))
           (stop (make-refusal :rule rule :stop stop))
           ((failing-clause rule memory plan (constantly t)))
           (t (make-refusal :rule rule :fired (rule-bindings rule memory))))))
 
-(defun refuse-conclusion (rule predicate packed plan)
-  "Return the REFUSAL of RULE in PLAN as far as it might have said PREDICATE of the faces of PACKED."
+(defun refuse-conclusion (rule predicate face-list plan)
+  "Return the REFUSAL of RULE in PLAN as far as it might have said PREDICATE of the faces of FACE-LIST."
   (multiple-value-bind (memory stop) (memory-before plan rule)
     (let ((actions (remove predicate (rule-actions rule) :key #'action-predicate :test-not #'eq)))
       (flet ((wanted-p (binding)
                (some (lambda (action)
-                       (may-bind-p (action-terms action) binding (pack-mask packed)))
+                       (may-bind-p (action-terms action) binding (face-list-mask face-list)))
                      actions)))
-        (if (or stop (plan-alone plan))
+        (if (or stop (plan-only-grasp plan))
             (refuse-rule rule plan)
             (let ((refusal (failing-clause rule memory plan #'wanted-p))
                   (bindings (rule-bindings rule memory)))
               (cond (refusal
-                     (setf (refusal-elsewhere refusal) (and bindings t))
+                     (setf (refusal-fired-for-others refusal) (and bindings t))
                      refusal)
                     (t (make-refusal :rule rule :fired bindings
                                      :stop (and (plan-stop plan) (not (unfinished-p plan))
@@ -50,7 +50,7 @@ under each, and ELSEWHERE is true if it fired for something else."
 (defun may-bind-p (terms binding faces)
   "True if those of TERMS that BINDING binds are among FACES, a set, and the others may be."
   (loop for term in terms
-        always (or (>= term (pack-count binding))
+        always (or (>= term (face-list-count binding))
                    (logbitp (term-value term binding) faces))))
 
 (defun failing-clause (rule memory plan wanted)
@@ -68,15 +68,15 @@ first clause that fails for all of them.  NIL if none does."
 (defun blocking-facts (clause bindings plan)
   "Return the derivations of the facts that contradict CLAUSE, negated, under BINDINGS."
   (let ((table (derivations plan)) (memory (plan-memory plan)) (predicate (clause-predicate clause)))
-    (loop for packed in (remove-duplicates
+    (loop for face-list in (remove-duplicates
                          (loop for binding in bindings
                                when (every (lambda (term) (or (not (term-variable-p term))
-                                                              (< term (pack-count binding))))
+                                                              (< term (face-list-count binding))))
                                            (clause-terms clause))
                                  collect (instantiate (clause-terms clause) binding))
-                         :key #'pack-mask :from-end t)
-          when (recall memory predicate packed)
-            collect (derivation-in table predicate packed memory plan))))
+                         :key #'face-list-mask :from-end t)
+          when (recall memory predicate face-list)
+            collect (derivation-in table predicate face-list memory plan))))
 
 (defun write-refusals (refusals more stream)
   "Write REFUSALS, and that there are MORE."
@@ -87,9 +87,9 @@ first clause that fails for all of them.  NIL if none does."
 
 (defmethod write-answer ((answer refusal) stream)
   (let ((rule (refusal-rule answer)))
-    (cond ((refusal-alone answer)
+    (cond ((refusal-only-grasp answer)
            (format stream "RULE ~a did not run: ~a was tried alone.~%" (rule-name rule)
-                   (refusal-alone answer)))
+                   (refusal-only-grasp answer)))
           ((refusal-fired answer) (write-fired answer stream))
           ((and (refusal-stop answer) (waiting-p (refusal-stop answer)))
            (format stream "RULE ~a has not run yet: the run stands ~:[in~;before~] RULE ~a.~%"
@@ -123,7 +123,7 @@ first clause that fails for all of them.  NIL if none does."
          (clause (refusal-clause refusal)))
     (format stream "RULE ~a ~:[did not fire~;did fire, but not for this~]: clause ~d, ~a, fails~
                     ~:[~; for all bindings before it~].~%"
-            (rule-name rule) (refusal-elsewhere refusal)
+            (rule-name rule) (refusal-fired-for-others refusal)
             (refusal-number refusal) (form-text (clause-form clause))
             (> (refusal-number refusal) 1))
     (write-tried-bindings rule (refusal-bindings refusal) stream)
@@ -133,7 +133,7 @@ first clause that fails for all of them.  NIL if none does."
           (write-tree block stream 2)
           (terpri stream))
         (format stream "  ~a~%" (missing-text clause (or (> (refusal-number refusal) 1)
-                                                         (refusal-elsewhere refusal)))))))
+                                                         (refusal-fired-for-others refusal)))))))
 
 (defun write-tried-bindings (rule bindings stream)
   (let ((texts (binding-texts rule bindings)))

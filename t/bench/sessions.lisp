@@ -54,24 +54,24 @@ and returns the verdict and the log, the newest event first."
 
 (defun try-function (plan)
   "Return a function that tries the candidates of PLAN again."
-  (let* ((attempt (supergrip::make-attempt
+  (let* ((workspace (supergrip::make-workspace
                    (supergrip::knowledge-graspbase (supergrip:plan-knowledge plan))))
          (tries (loop for candidate in (supergrip:plan-candidates plan)
                       collect (cons (supergrip::%candidate-grasp candidate)
                                     (supergrip::%candidate-matching candidate)))))
     (lambda ()
-      (supergrip::start-attempt attempt (supergrip:plan-box plan) 0.5d0)
+      (supergrip::start-workspace workspace (supergrip:plan-box plan) 0.5d0)
       (loop for (grasp . matching) in tries
-            do (supergrip::try-matching attempt grasp matching)))))
+            do (supergrip::try-matching workspace grasp matching)))))
 
 (defun form-function (plan)
   "Return a function that evaluates the WRENCH of the first candidate of PLAN."
   (let* ((candidate (first (supergrip:plan-candidates plan)))
-         (attempt (supergrip::start-attempt
-                   (supergrip::make-attempt
+         (workspace (supergrip::start-workspace
+                   (supergrip::make-workspace
                     (supergrip::knowledge-graspbase (supergrip:plan-knowledge plan)))
                    (supergrip:plan-box plan) 0.5d0))
-         (registers (supergrip::attempt-registers (supergrip::replay candidate attempt)))
+         (registers (supergrip::workspace-registers (supergrip::replay candidate workspace)))
          (program (supergrip::grasp-wrench (supergrip::%candidate-grasp candidate))))
     (lambda () (supergrip::execute program registers))))
 
