@@ -28,7 +28,7 @@ Returns what the rules said, a list of strings, and the stop."
         do (supergrip-chainer:remember
             memory
             (supergrip-chainer:find-predicate rulebase (list (symbol-name word)))
-            (supergrip-chainer:pack (mapcar #'supergrip-chainer:face-index faces))))
+            (supergrip-chainer:make-face-list (mapcar #'supergrip-chainer:face-index faces))))
   (let ((stop (supergrip-chainer:run-rules rulebase memory)))
     (values (loop for event in (reverse (supergrip-chainer:memory-log memory))
                   collect (event-text event rulebase))
@@ -46,9 +46,9 @@ Returns what the rules said, a list of strings, and the stop."
 (test surfaces-pack
   (is (equal '("Z2" "X1" "Y1")
              (supergrip-chainer:face-list-names
-              (supergrip-chainer:pack (mapcar #'supergrip-chainer:face-index '(z2 x1 y1))))))
+              (supergrip-chainer:make-face-list (mapcar #'supergrip-chainer:face-index '(z2 x1 y1))))))
   (is (equal '("Z2" "Z1" "Y2" "Y1" "X2" "X1")
-             (supergrip-chainer:face-list-names (supergrip-chainer:pack '(0 1 2 3 4 5)))))
+             (supergrip-chainer:face-list-names (supergrip-chainer:make-face-list '(0 1 2 3 4 5)))))
   (loop for (name axis sign) in '((x1 0 1) (x2 0 -1) (y1 1 1) (y2 1 -1) (z1 2 1) (z2 2 -1))
         for face = (supergrip-chainer:face-index name)
         do (is (= axis (supergrip-chainer:face-axis face)))
@@ -206,7 +206,7 @@ Returns what the rules said, a list of strings, and the stop."
          (memory (supergrip-chainer:make-memory rulebase)))
     (signals error
       (supergrip-chainer:remember memory (supergrip-chainer:find-predicate rulebase '("OPPOSED"))
-                                  (supergrip-chainer:pack '(0))))))
+                                  (supergrip-chainer:make-face-list '(0))))))
 
 (test saved-facts-are-restored
   (let* ((rulebase (build *sleepers*))

@@ -52,7 +52,7 @@
     (when predicate
       (supergrip-chainer:remember
        memory predicate
-       (supergrip-chainer:pack (mapcar #'supergrip-chainer:face-index faces))))))
+       (supergrip-chainer:make-face-list (mapcar #'supergrip-chainer:face-index faces))))))
 
 (defun fire-alone (name facts)
   "Run the shipped rule NAME alone on FACTS.  Returns what it did, a list as in *RULE-CASES*."

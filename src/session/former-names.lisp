@@ -6,9 +6,7 @@
   "Let each old name of PAIRS, lists of an old and a new name of a function, mean the new one."
   `(progn
      ,@(loop for (old new) in pairs
-             collect `(setf (fdefinition ',old) #',new
-                            (documentation ',old 'function)
-                            ,(format nil "The name of ~a in 0.1.0." new)))))
+             collect `(setf (fdefinition ',old) #',new))))
 
 (define-former-names
   (explain-refusal explain-why-not) (advise explain-choice)
