@@ -6,7 +6,9 @@
   "Let each old name of PAIRS, lists of an old and a new name of a function, mean the new one."
   `(progn
      ,@(loop for (old new) in pairs
-             collect `(setf (fdefinition ',old) #',new))))
+             collect `(defun ,old (&rest arguments)
+                        ,(format nil "The name of ~a in 0.1.0." new)
+                        (apply #',new arguments)))))
 
 (define-former-names
   (explain-refusal explain-why-not) (advise explain-choice)
