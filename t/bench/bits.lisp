@@ -133,7 +133,7 @@
             (blocked (pairs-where (lambda (pair) (= 3 (ldb (byte 2 (* 2 pair)) taken)))))
             (touched (pairs-where (lambda (pair) (/= 0 (ldb (byte 2 (* 2 pair)) taken))))))
         (cond ((or (logtest small touched)
-                   (<= (supergrip::%box-u box) (gripper "SLIPPERY-U"))
+                   (<= (supergrip::%box-friction box) (gripper "SLIPPERY-U"))
                    (> (logcount blocked) 1))
                (values :cant (journal-events journal)))
               (t (availability journal free parallel large)
