@@ -27,6 +27,7 @@
                (:module "plan"
                 :serial t
                 :components ((:file "quality")
+                             (:file "steps")
                              (:file "try")
                              (:file "knowledge")
                              (:file "plan")
@@ -156,6 +157,7 @@
                (:file "plan")
                (:file "errors")
                (:file "inputs")
+               (:file "steps")
                (:file "engines")
                (:file "forms")
                (:file "spoiled")

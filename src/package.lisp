@@ -46,7 +46,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    ;; plans
    #:plan #:*gamma* #:plan-box #:plan-knowledge #:plan-gamma #:plan-verdict #:plan-reason
    #:plan-best #:plan-candidates #:plan-possible #:plan-rejected #:plan-log #:plan-assertions
-   #:plan-grasp #:plan-matching #:plan-quality #:plan-stop #:plan-memory
+   #:plan-grasp #:plan-matching #:plan-quality #:plan-stop #:plan-memory #:plan-events
    #:write-transcript
    ;; candidates
    #:candidate #:candidate-grasp #:candidate-matching #:candidate-outcome #:candidate-quality

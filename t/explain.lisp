@@ -260,7 +260,7 @@
                    (return-from chosen
                      (supergrip::same-choice-p
                       plan (supergrip::plan
-                            (supergrip::box-with box row index
+                            (supergrip::box-with-at box row index
                                                  (coerce value 'double-float))))))))))
       (cond ((chosen back) (list text "does not change the choice"))
             ((supergrip::at-once-p from (supergrip::change-size change))

@@ -273,12 +273,12 @@
 (defun plain-nearest (candidates plan)
   "Return the nearest miss among CANDIDATES of PLAN, from its definition: each is looked at in full."
   (let ((step (find-if (lambda (step) (find step candidates :key #'supergrip:candidate-outcome))
-                       (reverse supergrip::+steps+)))
+                       (reverse (supergrip::step-outcomes))))
         (best nil) (least nil))
     (supergrip::with-workspace (workspace plan)
       (dolist (candidate candidates best)
         (when (eq step (supergrip:candidate-outcome candidate))
-          (let ((shortfalls (supergrip::shortfalls candidate workspace nil)))
+          (let ((shortfalls (supergrip::failure-shortfalls step candidate (supergrip::replay candidate workspace) nil)))
             (when (or (null best) (supergrip::misses-less-p shortfalls least))
               (setf best candidate least shortfalls))))))))
 

@@ -15,7 +15,7 @@ one generic function.")
    #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
    #:predicate-given
    #:memory #:make-memory #:clear-memory #:memory-client #:memory-log
-   #:recall #:remember #:facts #:assertions #:saved-facts #:save-facts #:restore-facts
+   #:recall #:remember #:put-fact #:facts #:assertions #:saved-facts #:save-facts #:restore-facts
    ;; rules
    #:rule #:rule-name #:rule-form #:rule-index #:rule-clauses #:rule-actions #:rule-variables
    #:rule-line #:rule-file #:rule-comment

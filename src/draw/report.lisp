@@ -272,10 +272,9 @@ needed."
 
 (defun remembered-facts (plan)
   "Return the facts that rules of PLAN remembered, in order: lists of event, predicate and faces."
-  (loop for event in (plan-log plan)
-        when (integerp event)
-          collect (cons event (multiple-value-list
-                               (supergrip-chainer:event-fact event (rulebase-of plan))))))
+  (loop for event in (plan-events plan)
+        collect (cons event (multiple-value-list
+                             (supergrip-chainer:event-fact event (rulebase-of plan))))))
 
 (defun given-facts (plan)
   "Return the facts that were there before any rule of PLAN ran: lists of predicate and faces."

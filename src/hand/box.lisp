@@ -9,16 +9,16 @@
   "A box and what is to be done with it.  SIZE along X Y Z in cm; WEIGHT in finger forces;
 FRICTION the coefficient u; SOFT-FRICTION v, that of the soft finger's torque, in cm; CONSTRAINED a set of faces;
 FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
-  (name nil)
-  (size nil :type three)
-  (weight 0d0 :type double-float)
-  (friction 0d0 :type double-float)
-  (soft-friction 0d0 :type double-float)
-  (constrained 0 :type (unsigned-byte 6))
-  (force nil :type six)
-  (velocity nil :type six)
-  (others '() :type list)               ; a plist of the values of keys without a slot of their own
-  (line nil))
+  (name nil :read-only t)
+  (size nil :type three :read-only t)
+  (weight 0d0 :type double-float :read-only t)
+  (friction 0d0 :type double-float :read-only t)
+  (soft-friction 0d0 :type double-float :read-only t)
+  (constrained 0 :type (unsigned-byte 6) :read-only t)
+  (force nil :type six :read-only t)
+  (velocity nil :type six :read-only t)
+  (others '() :type list :read-only t)  ; a plist of the values of keys without a slot of their own
+  (line nil :read-only t))
 
 (defun box-name (box) "Return the name of BOX, a string, or NIL." (%box-name box))
 (defun box-size (box) "Return the sizes of BOX along X Y Z, a list, in cm."

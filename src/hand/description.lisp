@@ -104,12 +104,21 @@ Signals a BOX-ERROR that holds all that is wrong with it."
 
 (defun make-box (values line)
   "Return the box of VALUES, a plist that has all that a box must have."
-  (let ((box (%make-box :size (getf values :size) :force (getf values :force-needed)
-                        :velocity (getf values :velocity-needed) :line line)))
-    (dolist (row *box-keys* box)
+  (let ((slots '()) (others '()))
+    (dolist (row *box-keys*)
       (let ((value (getf values (box-key-key row))))
-        (when value
-          (funcall (box-key-writer row) value box))))))
+        (cond ((null value))
+              ((box-key-slot row) (setf slots (list* (box-key-slot row) value slots)))
+              (t (setf others (list* (box-key-key row) value others))))))
+    (apply #'%make-box :line line :others others slots)))
+
+(defun box-with (box row value)
+  "Return a box as BOX with VALUE for the key ROW."
+  (let ((values (loop for other in *box-keys*
+                      collect (box-key-key other)
+                      collect (box-value box (box-key-key other)))))
+    (setf (getf values (box-key-key row)) value)
+    (make-box values (%box-line box))))
 
 (defun check-description (description)
   "Return the plist of the values in DESCRIPTION, and the list of the problems in it."

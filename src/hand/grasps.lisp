@@ -9,19 +9,20 @@ registers in turn, without the axes that the faces are normal to.  The other par
 COMPARISONS is an alist from the comparisons in CONDITIONS-NODE to those of their operands.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
 SAME, for each matching, the set of those that are the same grasp, itself included."
-  (name "" :type string) form file line (comment '()) (index 0 :type fixnum)
-  (used '() :type list) (palm 0 :type fixnum)
-  (conditions-node nil) (conditions nil :type (or null program))
-  (comparisons '() :type list)
-  (offset nil :type (or null program))
-  (positions nil :type (or null program)) (contacts '() :type list)
-  (places nil :type register-vector)
-  (wrench nil :type (or null program))
-  (twist nil :type (or null program))
+  (name "" :type string :read-only t) (index 0 :type fixnum :read-only t)
+  (form nil :read-only t) (file nil :read-only t) (line nil :read-only t) (comment '() :read-only t)
+  (used '() :type list :read-only t) (palm 0 :type fixnum :read-only t)
+  (conditions-node nil :read-only t) (conditions nil :type (or null program) :read-only t)
+  (comparisons '() :type list :read-only t)
+  (offset nil :type (or null program) :read-only t)
+  (positions nil :type (or null program) :read-only t) (contacts '() :type list :read-only t)
+  (places nil :type register-vector :read-only t)
+  (wrench nil :type (or null program) :read-only t)
+  (twist nil :type (or null program) :read-only t)
   (usable (make-array 64 :element-type '(unsigned-byte 24))
-   :type (simple-array (unsigned-byte 24) (64)))
+   :type (simple-array (unsigned-byte 24) (64)) :read-only t)
   (same (make-array 24 :element-type '(unsigned-byte 24))
-   :type (simple-array (unsigned-byte 24) (24))))
+   :type (simple-array (unsigned-byte 24) (24)) :read-only t))
 
 (defmethod print-object ((grasp grasp) stream)
   (print-unreadable-object (grasp stream :type t)
@@ -30,10 +31,10 @@ SAME, for each matching, the set of those that are the same grasp, itself includ
 (defstruct graspbase
   "The gripper (an alist from name to double), the grasps, and the registers that their programs
 start from."
-  (gripper '() :type list)
-  (grasps '() :type list)
-  (broken '() :type list)               ; names of grasps that were left out
-  (registers (make-array +inputs-end+ :element-type 'double-float) :type registers))
+  (gripper '() :type list :read-only t)
+  (grasps '() :type list :read-only t)
+  (broken '() :type list :read-only t)  ; names of grasps that were left out
+  (registers (make-array +inputs-end+ :element-type 'double-float) :type registers :read-only t))
 
 (defmethod print-object ((graspbase graspbase) stream)
   (print-unreadable-object (graspbase stream :type t)
@@ -251,15 +252,15 @@ has one of them."
                              collect axis collect (pop registers)))
           'register-vector))
 
-(defun finish-grasp (draft layout)
-  "Return the grasp of DRAFT, its forms ready to run on the registers of LAYOUT."
+(defun finish-grasp (draft index layout)
+  "Return the grasp of DRAFT, the one with INDEX, its forms ready to run on the registers of LAYOUT."
   (let* ((contacts (draft-contacts draft))
          (fingers (mapcar #'first contacts))
          (conditions (draft-conditions draft))
          (positions (numbers-program (loop for (nil . place) in contacts append place) layout))
          (places (coerce (program-results positions) 'list)))
     (make-grasp
-     :name (draft-name draft) :form (draft-form draft) :file (draft-file draft)
+     :name (draft-name draft) :index index :form (draft-form draft) :file (draft-file draft)
      :line (draft-line draft) :comment (draft-comment draft)
      :used (draft-used draft) :palm (draft-palm draft)
      :conditions-node conditions
@@ -315,6 +316,7 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
                            (t (setf (gethash (draft-name draft) names) t)
                               (push draft drafts)))))))))
     (let* ((layout (scope-layout scope))
-           (grasps (loop for draft in (reverse drafts) collect (finish-grasp draft layout))))
-      (loop for grasp in grasps for index from 0 do (setf (grasp-index grasp) index))
+           (grasps (loop for draft in (reverse drafts)
+                         for index from 0
+                         collect (finish-grasp draft index layout))))
       (make-graspbase :gripper gripper :grasps grasps :broken broken :registers (make-registers layout)))))

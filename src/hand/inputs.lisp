@@ -53,7 +53,7 @@ has the assertion."
            (declare (type face-list face-list) (ignorable face-list))
            (let ,bindings
              (declare (ignorable ,@variables))
-             (when ,test (remember memory predicate face-list)))))
+             (when ,test (put-fact memory predicate face-list)))))
        (lambda (face-list box ,threshold)
          (declare (type face-list face-list) (ignorable face-list box ,threshold))
          (let ,bindings

@@ -13,9 +13,9 @@
   :NEEDS         a list of six numbers from 0 to 1
   :FACES         faces, any number of them.
 TAKES says so in words, EXAMPLE is a list of what may follow.  OPTIONAL is true if a box may lack it.
-READER and WRITER are functions of a box, and of a new value and a box.  WORDS name a value that may be
+READER is a function of a box; SLOT, a keyword, names the slot of its own, if it has one.  WORDS name a value that may be
 varied, \"the weight\", NIL if none may."
-  key json type takes example optional reader writer words)
+  key json type takes example optional slot reader words)
 
 (defvar *box-keys* '() "The rows that DEFINE-BOX-KEY has defined, in order.")
 
@@ -28,33 +28,33 @@ varied, \"the weight\", NIL if none may."
                           &key slot optional words
                             (json (substitute #\_ #\- (string-downcase key))))
   "Define the KEY, a keyword, of box descriptions, which takes what TYPE says (see BOX-KEY), TAKES in
-words; EXAMPLE is a list of what may follow it.  SLOT is the accessor of its own slot; without one the
-value is among the others of the box, for BOX-VALUE."
-  (let ((place (if slot `(,slot box) `(getf (%box-others box) ,key))))
-    `(add-box-key
-      (make-box-key :key ,key :json ,json :type ',type :takes ,takes :example ',example
-                    :optional ,optional :words ,words
-                    :reader (lambda (box) ,place)
-                    :writer (lambda (value box) (setf ,place value))))))
+words; EXAMPLE is a list of what may follow it.  SLOT, a keyword, names its own slot; without one the value
+is among the others of the box, for BOX-VALUE."
+  `(add-box-key
+    (make-box-key :key ,key :json ,json :type ',type :takes ,takes :example ',example
+                  :optional ,optional :words ,words :slot ,slot
+                  :reader ,(if slot
+                               `#',(find-symbol (format nil "%BOX-~a" slot) :supergrip)
+                               `(lambda (box) (getf (%box-others box) ,key))))))
 
 (define-box-key :size (:numbers 3) "three sizes in cm, above 0" (12 2 2)
-  :slot %box-size)
+  :slot :size)
 (define-box-key :weight :number "one number from 0, in finger forces" (0.2d0)
-  :slot %box-weight :words "the weight")
+  :slot :weight :words "the weight")
 (define-box-key :u :number "one coefficient of friction from 0" (0.8d0)
-  :slot %box-friction :words "the friction u")
+  :slot :friction :words "the friction u")
 (define-box-key :v :number "one coefficient of torsional friction from 0, in cm" (0.2d0)
-  :slot %box-soft-friction :words "the torsional friction v")
+  :slot :soft-friction :words "the torsional friction v")
 (define-box-key :constrained :faces "faces among X1 X2 Y1 Y2 Z1 Z2, or nothing" (:z2 :x1)
-  :slot %box-constrained)
+  :slot :constrained)
 (define-box-key :force-needed :needs "a list of six numbers from 0 to 1"
   ((1 0.8d0 0.8d0 0.3d0 1 1))
-  :slot %box-force :words "the force needed")
+  :slot :force :words "the force needed")
 (define-box-key :velocity-needed :needs "a list of six numbers from 0 to 1"
   ((0 0.8d0 0.8d0 0 0.8d0 0.8d0))
-  :slot %box-velocity :words "the velocity needed")
+  :slot :velocity :words "the velocity needed")
 (define-box-key :name :text "one string" ("pencil")
-  :slot %box-name :optional t)
+  :slot :name :optional t)
 
 (defun find-key (key)
   (find key *box-keys* :key #'box-key-key))

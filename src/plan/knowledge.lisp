@@ -4,14 +4,15 @@
 
 (defstruct (knowledge (:constructor %make-knowledge))
   "Rules and grasps, ready for use; immutable, but for SPARE, scratch space that plans give back (see
-START-PLAN).  INPUTS are the preliminary assertions, prepared.  RULE-FILE and GRASP-FILE are what they were made of, WARNINGS the PROBLEMs that did not
-prevent it."
-  (rule-file nil) (grasp-file nil)
-  (rulebase nil :type rulebase)
-  (graspbase nil :type graspbase)
-  (predicates #() :type simple-vector)
-  (inputs '() :type list)
-  (warnings '() :type list)
+START-PLAN).  INPUTS are the preliminary assertions, prepared.  RULE-FILE and GRASP-FILE are what they
+were made of, WARNINGS the PROBLEMs that did not prevent it."
+  (rule-file nil :read-only t)
+  (grasp-file nil :read-only t)
+  (rulebase nil :type rulebase :read-only t)
+  (graspbase nil :type graspbase :read-only t)
+  (predicates #() :type simple-vector :read-only t)
+  (inputs '() :type list :read-only t)
+  (warnings '() :type list :read-only t)
   (spare '() :type list))
 
 (defmethod print-object ((knowledge knowledge) stream)

@@ -65,9 +65,28 @@ more."
 
 (defstruct (plan (:constructor %make-plan) (:copier nil))
   "What was decided for a box, and all that led to it."
-  (box nil :type box) (knowledge nil :type knowledge) (gamma 0.5d0 :type double-float)
-  (stop nil) (best nil) (log '() :type list) (facts nil :type (or null saved-facts))
-  (only-grasp nil))                          ; the name of the grasp that was tried without rules
+  (box nil :type box :read-only t)
+  (knowledge nil :type knowledge :read-only t)
+  (gamma 0.5d0 :type double-float :read-only t)
+  (stop nil :read-only t)
+  (best nil :read-only t)
+  (log '() :type list :read-only t)     ; see DO-LOG
+  (facts nil :type (or null saved-facts) :read-only t)
+  (only-grasp nil :read-only t))        ; the name of the grasp that was tried without rules
+
+(defmacro do-log ((log) (candidate &body candidate-body) (event &body event-body))
+  "Go through LOG, that of a plan or what an action added to it, in order: run CANDIDATE-BODY with
+CANDIDATE each grasp that was tried, and EVENT-BODY with EVENT each fact that a rule remembered (see
+EVENT-FACT)."
+  (let ((entry (gensym "ENTRY")))
+    `(dolist (,entry ,log)
+       (if (candidate-p ,entry)
+           (let ((,candidate ,entry)) ,@candidate-body)
+           (let ((,event ,entry)) ,@event-body)))))
+
+(defun plan-events (plan)
+  "Return the events of PLAN, each a fact that a rule remembered, in order: see EVENT-FACT."
+  (remove-if #'candidate-p (plan-log plan)))
 
 (defun need-plan (plan)
   (if (plan-p plan) plan (error 'no-plan-error :given plan)))
@@ -187,7 +206,7 @@ Rules that end without KEEP or CANT keep the best."
 
 (defun plan-candidates (&optional (plan *plan*))
   "Return the candidates of PLAN, a new list, in the order in which they were tried."
-  (loop for event in (plan-log (need-plan plan)) when (candidate-p event) collect event))
+  (loop for entry in (plan-log (need-plan plan)) when (candidate-p entry) collect entry))
 
 (defun possible-p (candidate)
   (eq (%candidate-outcome candidate) :possible))

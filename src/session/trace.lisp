@@ -119,22 +119,22 @@ rule, CONTINUE to the next break."))
     (format stream "  (~a FAILS AT ~a, MATCHING: (~{~a~^ ~})): ~a~%" (candidate-grasp candidate)
             (symbol-name step) (candidate-matching candidate) text)))
 
-(defun write-additions (events plan in-hand level traced stream)
-  "Write EVENTS, what an action of PLAN added to the log, of a rule that is TRACED or not.  IN-HAND
+(defun write-additions (log plan in-hand level traced stream)
+  "Write LOG, what an action of PLAN added to the log, of a rule that is TRACED or not.  IN-HAND
 returns the plan as it is now."
-  (dolist (event events)
-    (cond ((not (candidate-p event))
-           (when (or traced (plusp level))
-             (write-event event (plan-rulebase plan) stream))
-           (when (fact-broken-p event (plan-rulebase plan))
-             (pause (funcall in-hand)
-                    "~a is known" (multiple-value-call #'fact-text
-                                     (event-fact event (plan-rulebase plan))))))
-          ((candidate-quality event)
-           (when (or traced (plusp level) (traced-p (candidate-grasp event)))
-             (write-candidate event stream)))
-          ((or traced (>= level 3) (traced-p (candidate-grasp event)))
-           (write-failed-candidate event plan stream)))))
+  (do-log (log)
+    (candidate
+     (let ((traced (or traced (traced-p (candidate-grasp candidate)))))
+       (if (candidate-quality candidate)
+           (when (or traced (plusp level)) (write-candidate candidate stream))
+           (when (or traced (>= level 3)) (write-failed-candidate candidate plan stream)))))
+    (event
+     (when (or traced (plusp level))
+       (write-event event (plan-rulebase plan) stream))
+     (when (fact-broken-p event (plan-rulebase plan))
+       (pause (funcall in-hand)
+              "~a is known" (multiple-value-call #'fact-text
+                              (event-fact event (plan-rulebase plan))))))))
 
 (defun trace-observer (plan memory level stream)
   "Return an observer of the run of PLAN on MEMORY, under way, that writes to STREAM what LEVEL asks
@@ -210,9 +210,7 @@ first two, and so on; FIRINGS its bindings; FACTS what it added."
   "Return what RULE-COUNTS does, from running the rules again as far as PLAN has come."
   (let ((counts '()) (rulebase (plan-rulebase plan)))
     (flet ((facts (rule)
-             (count-if (lambda (event)
-                         (and (integerp event) (eq rule (event-rule event rulebase))))
-                       (plan-log plan))))
+             (count rule (plan-events plan) :key (lambda (event) (event-rule event rulebase)))))
       (observed-plan (plan-box plan) (plan-knowledge plan) (plan-gamma plan)
                      (lambda (unfinished memory)
                        (declare (ignore unfinished))

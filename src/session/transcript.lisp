@@ -30,9 +30,8 @@
   "Write PLAN to STREAM in the lines of the paper's session."
   (let ((rulebase (knowledge-rulebase (plan-knowledge (need-plan plan)))))
     (plainly
-      (dolist (event (plan-log plan))
-        (if (candidate-p event)
-            (write-candidate event stream)
-            (write-event event rulebase stream)))
+      (do-log ((plan-log plan))
+        (candidate (write-candidate candidate stream))
+        (event (write-event event rulebase stream)))
       (write-verdict plan stream)
       (format stream "--END--~%"))))

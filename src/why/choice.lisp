@@ -68,16 +68,14 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
   (let ((value (box-value box (box-key-key row))))
     (if (arrayp value) (aref value index) value)))
 
-(defun box-with (box row index value)
-  "Return BOX with VALUE for the key ROW, at INDEX if that is six numbers."
-  (let ((new (copy-structure box))
-        (six (box-value box (box-key-key row))))
-    (when (arrayp six)
-      (let ((copy (copy-seq six)))
-        (setf (aref copy index) value
-              value copy)))
-    (funcall (box-key-writer row) value new)
-    new))
+(defun box-with-at (box row index value)
+  "Return a box as BOX with VALUE for the key ROW, at INDEX if that is six numbers."
+  (let ((six (box-value box (box-key-key row))))
+    (if (arrayp six)
+        (let ((copy (copy-seq six)))
+          (setf (aref copy index) value)
+          (box-with box row copy))
+        (box-with box row value))))
 
 (defun value-name (row index)
   (format nil "~a~@[ ~a~]" (box-key-words row)
@@ -104,7 +102,7 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
          (most (if (eq (box-key-type row) :needs) 1d0 (max 2d0 (* 4 from))))
          (step (/ most 50)))
     (labels ((other-p (value)
-               (let ((new (box-with box row index value)))
+               (let ((new (box-with-at box row index value)))
                  (and (<= 0 value most)
                       (needs-something-p new)
                       (not (same-choice-p plan (plan-like plan new))))))
@@ -114,7 +112,7 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
                                 (loop for value = 0.01d0 then (/ value 10)
                                       when (other-p value) return value)
                                 (short-decimal-beyond same other from #'other-p)))
-                        (new (box-with box row index to)))
+                        (new (box-with-at box row index to)))
                    (make-change :what (value-name row index) :from from :to to :box new
                                 :plan (plan-like plan new) :size (abs (- other from)))))))
       (loop for k from 1 to 50

@@ -22,10 +22,10 @@ input, where it comes from."
 (defun fact-event (plan predicate face-list)
   "Return the event that remembered the fact in PLAN, or NIL."
   (find-if (lambda (event)
-             (and (integerp event)
-                  (multiple-value-bind (other faces) (event-fact event (plan-rulebase plan))
-                    (and (eq other predicate) (= (face-list-mask faces) (face-list-mask face-list))))))
-           (plan-log plan)))
+             (multiple-value-bind (other faces) (event-fact event (plan-rulebase plan))
+               (and (eq other predicate)
+                    (= (face-list-mask faces) (face-list-mask face-list)))))
+           (plan-events plan)))
 
 (defun input-note (predicate face-list plan)
   "Return why the preliminary assertion PREDICATE of FACE-LIST holds in PLAN."
@@ -45,15 +45,14 @@ input, where it comes from."
 (defun derivations (plan)
   "Return a table from FACT-KEYs to the derivations of all that the rules of PLAN remembered."
   (let ((table (make-hash-table)) (rulebase (plan-rulebase plan)) (memory (plan-memory plan)))
-    (dolist (event (plan-log plan) table)
-      (when (integerp event)
-        (multiple-value-bind (predicate face-list) (event-fact event rulebase)
-          (let ((rule (event-rule event rulebase)) (binding (event-binding event)))
-            (setf (gethash (fact-key predicate face-list) table)
-                  (make-derivation :predicate predicate :face-list face-list :rule rule :binding binding
-                                   :parts (loop for clause in (rule-clauses rule)
-                                                collect (clause-part clause rule binding table
-                                                                     memory plan))))))))))
+    (dolist (event (plan-events plan) table)
+      (multiple-value-bind (predicate face-list) (event-fact event rulebase)
+        (let ((rule (event-rule event rulebase)) (binding (event-binding event)))
+          (setf (gethash (fact-key predicate face-list) table)
+                (make-derivation :predicate predicate :face-list face-list :rule rule :binding binding
+                                 :parts (loop for clause in (rule-clauses rule)
+                                              collect (clause-part clause rule binding table
+                                                                   memory plan)))))))))
 
 (defun clause-part (clause rule binding table memory plan)
   "Return what met CLAUSE of RULE under BINDING: a derivation, from TABLE if it has it, or an

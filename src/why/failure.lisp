@@ -102,26 +102,6 @@ does not."
                       when (plusp share) collect (number-text share) and collect (axis-name axis))
                 (first (number-texts (total-share shares) 1))))))
 
-(defun candidate-failure (candidate &optional (plan *plan*))
-  "Return why CANDIDATE of PLAN is not possible: the step (see CANDIDATE-OUTCOME) and a sentence
-with the figures.  NIL if it is possible."
-  (let ((outcome (candidate-outcome candidate)))
-    (unless (eq outcome :possible)
-      (with-replay (workspace candidate plan)
-        (values outcome
-                (plainly
-                  (ecase outcome
-                    (:conditions (describe-condition-failure candidate workspace))
-                    (:offset (describe-offset-failure candidate workspace))
-                    (:fingers (describe-finger-failure candidate workspace))
-                    (:open (describe-open candidate workspace))
-                    (:lifting (describe-lifting-failure workspace)))))))))
-
-;;; The nearest miss
-
-(defparameter +steps+ '(:conditions :offset :fingers :open :lifting :possible)
-  "The steps of TRY, in order.")
-
 (defun friction-shortfall (grasp registers least)
   "Return by how much the friction in REGISTERS misses what closes GRASP, relative; 1 if nothing
 does, or if it is no less than LEAST, unless that is NIL."
@@ -133,23 +113,76 @@ does, or if it is no less than LEAST, unless that is NIL."
                              (closing-friction grasp registers)))))
     (if needed (- 1 (/ u needed)) 1)))
 
-(defun shortfalls (candidate workspace least)
-  "Return by how much CANDIDATE missed the step that it failed, a list to compare by MISSES-LESS-P.
-Each number is 0 to 1, relative; 1 where that can't be said, or, of friction, if it is no less than
-LEAST.  A candidate that one clear thing prevents is nearer than any other that fails CONDITIONS.
-WORKSPACE, at the box, is used to replay it."
-  (if (eq (candidate-outcome candidate) :conditions)
-      (let ((faults (candidate-faults candidate workspace)))
-        (list* (if (clear-p faults) 0 1)
-               (or (mapcar #'fault-shortfall faults) '(1))))
-      (let ((workspace (replay candidate workspace)))
-        (list (case (candidate-outcome candidate)
-                (:fingers (let ((overhangs (overhangs candidate workspace)))
-                            (if (consp overhangs) (first (first overhangs)) 1)))
-                (:open (friction-shortfall (%candidate-grasp candidate)
-                                           (copy-seq (workspace-registers workspace)) least))
-                (:lifting (- 1 (/ (total-share (load-shares workspace)))))
-                (t 1))))))
+(defun finger-shortfall (candidate workspace)
+  "Return by how much a finger of CANDIDATE is beyond an edge, relative; 1 if a form has no value."
+  (let ((overhangs (overhangs candidate workspace)))
+    (if (consp overhangs) (first (first overhangs)) 1)))
+
+(defun condition-shortfalls (candidate workspace)
+  "Return by how much CANDIDATE misses its conditions, the worst first.  One that one clear thing
+prevents is nearer than any other: its list begins with 0, not 1."
+  (let ((faults (candidate-faults candidate workspace)))
+    (list* (if (clear-p faults) 0 1)
+           (or (mapcar #'fault-shortfall faults) '(1)))))
+
+;;; One row for each outcome
+
+(defgeneric failure-text (outcome candidate workspace)
+  (:documentation "Return why CANDIDATE, whose figures WORKSPACE holds, has OUTCOME, a sentence.")
+  (:method (outcome candidate workspace)
+    (declare (ignore candidate workspace))
+    (format nil "it fails the step ~a" outcome)))
+
+(defgeneric failure-shortfalls (outcome candidate workspace least)
+  (:documentation "Return by how much CANDIDATE, whose figures WORKSPACE holds, missed the step of
+OUTCOME: a list to compare by MISSES-LESS-P.  Each number is 0 to 1, relative; 1 where that can't be
+said.  A number may be 1, too, if it is no less than LEAST, unless that is NIL.")
+  (:method (outcome candidate workspace least)
+    (declare (ignore outcome candidate workspace least))
+    '(1)))
+
+(defmacro define-failure (outcome (candidate workspace &optional (least (gensym))) &key why shortfalls)
+  "Say of the candidates that have OUTCOME, a keyword (see DEFINE-STEP): WHY, a form that returns a
+sentence, and SHORTFALLS, one that returns a list (see FAILURE-SHORTFALLS)."
+  `(progn
+     (defmethod failure-text ((outcome (eql ,outcome)) ,candidate ,workspace)
+       (declare (ignorable ,candidate ,workspace))
+       ,why)
+     ,@(when shortfalls
+         `((defmethod failure-shortfalls ((outcome (eql ,outcome)) ,candidate ,workspace ,least)
+             (declare (ignorable ,candidate ,workspace ,least))
+             ,shortfalls)))))
+
+(define-failure :conditions (candidate workspace)
+  :why (describe-condition-failure candidate workspace)
+  :shortfalls (condition-shortfalls candidate workspace))
+
+(define-failure :offset (candidate workspace)
+  :why (describe-offset-failure candidate workspace))
+
+(define-failure :fingers (candidate workspace)
+  :why (describe-finger-failure candidate workspace)
+  :shortfalls (list (finger-shortfall candidate workspace)))
+
+(define-failure :open (candidate workspace least)
+  :why (describe-open candidate workspace)
+  :shortfalls (list (friction-shortfall (%candidate-grasp candidate)
+                                        (copy-seq (workspace-registers workspace)) least)))
+
+(define-failure :lifting (candidate workspace)
+  :why (describe-lifting-failure workspace)
+  :shortfalls (list (- 1 (/ (total-share (load-shares workspace))))))
+
+(defun candidate-failure (candidate &optional (plan *plan*))
+  "Return why CANDIDATE of PLAN is not possible: the step (see CANDIDATE-OUTCOME) and a sentence
+with the figures.  NIL if it is possible."
+  (let ((outcome (candidate-outcome candidate)))
+    (unless (eq outcome :possible)
+      (with-replay (workspace candidate plan)
+        (values outcome
+                (plainly (failure-text outcome candidate workspace)))))))
+
+;;; The nearest miss
 
 (defun misses-less-p (a b)
   "True if the SHORTFALLS A are less than B: the first that differ decide, or else that A are fewer."
@@ -162,12 +195,13 @@ WORKSPACE, at the box, is used to replay it."
 (defun nearest-miss (candidates plan)
   "Return the one of CANDIDATES of PLAN that got farthest; of several, the one that missed by least."
   (let* ((step (find-if (lambda (step) (find step candidates :key #'candidate-outcome))
-                        (reverse +steps+)))
+                        (reverse (step-outcomes))))
          (best nil) (least nil))
     (with-workspace (workspace plan)
       (dolist (candidate candidates best)
         (when (eq step (candidate-outcome candidate))
-          (let ((shortfalls (shortfalls candidate workspace (first least))))
+          (let ((shortfalls (failure-shortfalls step candidate (replay candidate workspace)
+                                                (first least))))
             (when (or (null best) (misses-less-p shortfalls least))
               (setf best candidate least shortfalls))))))))
 

@@ -1,0 +1,246 @@
+;;;; steps.lisp -- the steps through which TRY takes a candidate: a grasp in one matching.
+;;;;
+;;;; Grasping conditions, offset, positions of the fingers, wrench and twist rotated to X Y Z,
+;;;; lifting, quality.  A candidate that passes is possible; one that fails keeps the step that it failed.
+
+(in-package :supergrip)
+
+(defstruct (candidate (:constructor make-candidate (grasp matching)) (:copier nil)
+                      (:conc-name %candidate-))
+  "A grasp in one matching.  OUTCOME is :POSSIBLE or the step that failed: :CONDITIONS, :OFFSET,
+:FINGERS, :OPEN or :LIFTING.  X Y Z is the grasp centre from the box centre, in cm."
+  (grasp nil :type grasp)
+  (matching nil :type matching)
+  (outcome :conditions :type symbol)
+  (quality 0d0 :type double-float)
+  (force-radius 0d0 :type double-float) (velocity-radius 0d0 :type double-float)
+  (force-limit -1 :type (integer -1 5)) (velocity-limit -1 :type (integer -1 5))
+  (x 0d0 :type double-float) (y 0d0 :type double-float) (z 0d0 :type double-float))
+
+(defmethod print-object ((candidate candidate) stream)
+  (print-unreadable-object (candidate stream :type t)
+    (plainly
+      (format stream "~a (~{~a~^ ~}) ~:[~a~;Q=~*~,3f~]" (grasp-name (%candidate-grasp candidate))
+              (matching-names (%candidate-matching candidate))
+              (eq (%candidate-outcome candidate) :possible) (%candidate-outcome candidate)
+              (%candidate-quality candidate)))))
+
+(defun make-six () (make-array 6 :element-type 'double-float :initial-element 0d0))
+(defun make-three () (make-array 3 :element-type 'double-float :initial-element 0d0))
+
+(defstruct (workspace (:constructor %make-workspace (registers tried)))
+  "All that trying grasps on one box needs and leaves: the registers, what was tried of each grasp
+(a set of matchings), and the BEST candidate.  The arrays are the current candidate's, in the box
+frame: WRENCH and TWIST what the grasp can do, LOAD what gravity asks, SPARE what it leaves of
+WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
+  (box nil :type (or null box)) (gamma 0.5d0 :type double-float)
+  (registers nil :type registers)
+  (tried nil :type (simple-array (unsigned-byte 24) (*)))
+  (best nil)
+  (lengths (make-three) :type three) (centre (make-three) :type three)
+  (offset (make-three) :type three)
+  (wrench (make-six) :type six) (twist (make-six) :type six)
+  (load (make-six) :type six) (spare (make-six) :type six)
+  (force-needs (make-six) :type six) (velocity-needs (make-six) :type six))
+
+(defmethod print-object ((workspace workspace) stream)
+  (print-unreadable-object (workspace stream :type t)
+    (plainly
+      (format stream "~@[at ~a~]" (workspace-box workspace)))))
+
+(defun make-workspace (graspbase)
+  "Return a workspace with the grasps of GRASPBASE, at no box yet."
+  (%make-workspace (copy-seq (graspbase-registers graspbase))
+                   (make-array (length (graspbase-grasps graspbase))
+                               :element-type '(unsigned-byte 24))))
+
+(defun start-workspace (workspace box gamma)
+  "Make WORKSPACE, which may have been used, one at BOX with nothing tried yet.  Return it."
+  (declare (type workspace workspace) (type box box))
+  (setf (workspace-box workspace) box
+        (workspace-gamma workspace) gamma
+        (workspace-best workspace) nil
+        (aref (workspace-registers workspace) +u+) (%box-friction box)
+        (aref (workspace-registers workspace) +v+) (%box-soft-friction box))
+  (fill (workspace-tried workspace) 0)
+  workspace)
+
+;;; The table.  Why a candidate failed a step, and by how much, is told in why/failure.lisp, one row each.
+
+(defstruct (try-step (:constructor make-try-step (outcome name test)))
+  "A step of TRY.  OUTCOME is what a candidate that fails it has; TEST, a function of the candidate and
+the workspace, returns true if it passes.  NAME is a symbol."
+  (outcome nil :type keyword) (name nil :type symbol) (test nil :type function))
+
+(defvar *steps* #() "The steps of TRY that DEFINE-STEP has defined, in the order in which they are taken.")
+(declaim (type simple-vector *steps*))
+
+(defun put-step (step)
+  "Put STEP into the place of the one of its name, or last."
+  (let ((old (find (try-step-name step) *steps* :key #'try-step-name)))
+    (setf *steps* (if old (substitute step old *steps*) (concatenate 'vector *steps* (list step))))))
+
+(defmacro define-step (name outcome (candidate workspace) &body body)
+  "Define the step NAME of TRY, the last one if it is new.  BODY is true if CANDIDATE passes; it leaves
+in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keyword."
+  `(put-step (make-try-step ,outcome ',name
+                            (lambda (,candidate ,workspace)
+                              (declare (ignorable ,candidate ,workspace))
+                              ,@body))))
+
+(defun run-steps (workspace candidate)
+  "Take CANDIDATE through the steps; its OUTCOME is the one it failed, or :POSSIBLE."
+  (declare (type candidate candidate))
+  (handler-case
+      (loop for step across *steps*
+            do (setf (%candidate-outcome candidate) (try-step-outcome step))
+            always (funcall (try-step-test step) candidate workspace)
+            finally (setf (%candidate-outcome candidate) :possible))
+    ;; What has no value fails the step that it stands in.  The steps find it out by themselves;
+    ;; where a float trap is enabled, it may come first.
+    (arithmetic-error () nil)))
+
+(defun step-outcomes ()
+  "Return what candidates may have, in the order of the steps; the last is :POSSIBLE."
+  (append (remove-duplicates (map 'list #'try-step-outcome *steps*) :from-end t) '(:possible)))
+
+;;; What the steps do
+
+(defun place-box (workspace matching)
+  "Put the distances of the faces, and which are constrained, into the registers."
+  (declare (type workspace workspace) (type matching matching))
+  (let* ((registers (workspace-registers workspace))
+         (box (workspace-box workspace))
+         (size (%box-size box))
+         (constrained (%box-constrained box)))
+    (dotimes (i 3)
+      (let ((length (aref size (aref (matching-axes matching) i))))
+        (setf (aref (workspace-lengths workspace) i) length
+              (aref registers (+ +distances+ i)) length)))
+    (dotimes (grasp-face 6)
+      (setf (aref registers (+ +blocked+ grasp-face))
+            (if (logbitp (the face (svref (matching-faces matching) grasp-face)) constrained)
+                1d0 0d0)))))
+
+(defun find-centre (workspace grasp)
+  "Put the grasp centre, in the grasp frame from the box centre, into the workspace.
+Entries for opposite faces say the same shift, so they must be opposite numbers."
+  (declare (type workspace workspace) (type grasp grasp))
+  (let* ((registers (workspace-registers workspace))
+         (results (program-results (grasp-offset grasp)))
+         (centre (workspace-centre workspace)))
+    (and (execute (grasp-offset grasp) registers)
+         (dotimes (i 3 t)
+           (let* ((plus (aref registers (aref results (* 2 i))))
+                  (minus (aref registers (aref results (1+ (* 2 i)))))
+                  (both (- plus minus)))
+             (unless (and (<= (abs (+ plus minus)) (* 1d-9 (+ 1d0 (abs plus)))) (finite-p both))
+               (return nil))
+             (setf (aref centre i) (* 0.5d0 both)))))))
+
+(declaim (inline inside-p))
+(defun inside-p (place length)
+  (declare (double-float place length))
+  (<= (abs place) (* 0.5d0 length (+ 1d0 1d-9))))
+
+(defun fingers-on-faces-p (workspace grasp)
+  "True if every finger is inside the edges of its face."
+  (declare (type workspace workspace))
+  (let ((registers (workspace-registers workspace))
+        (centre (workspace-centre workspace))
+        (lengths (workspace-lengths workspace)))
+    (and (execute (grasp-positions grasp) registers)
+         (loop with places = (grasp-places grasp)
+               for place from 0 below (length places) by 2
+               always (let ((axis (aref places place))
+                            (register (aref places (1+ place))))
+                        (inside-p (+ (aref centre axis) (aref registers register))
+                                  (aref lengths axis)))))))
+
+(defun compute-capacities (workspace grasp matching)
+  "Put wrench and twist, rotated to X Y Z, into the workspace.  True if the grasp is closed."
+  (declare (type workspace workspace) (type matching matching))
+  (let ((registers (workspace-registers workspace)))
+    (flet ((rotate (program out least)
+             (declare (type six out) (double-float least))
+             (and (execute program registers)
+                  (dotimes (i 6 t)
+                    (let ((entry (aref registers (aref (program-results program) i))))
+                      (unless (> entry least) (return nil))
+                      (setf (aref out (aref (matching-axes matching) i)) entry))))))
+      (and (rotate (grasp-wrench grasp) (workspace-wrench workspace) 0d0)
+           (rotate (grasp-twist grasp) (workspace-twist workspace) -1d-300)))))
+
+(defun turn-centre (workspace matching candidate)
+  "Put the grasp centre into CANDIDATE, in the box frame."
+  (declare (type workspace workspace) (type matching matching) (type candidate candidate))
+  (let ((offset (workspace-offset workspace)))
+    (dotimes (i 3)
+      (setf (aref offset (aref (matching-axes matching) i))
+            (* (aref (matching-signs matching) i) (aref (workspace-centre workspace) i))))
+    (setf (%candidate-x candidate) (aref offset 0)
+          (%candidate-y candidate) (aref offset 1)
+          (%candidate-z candidate) (aref offset 2))
+    ;; From here on only the lever arms matter.
+    (dotimes (i 3)
+      (setf (aref offset i) (abs (aref offset i))))))
+
+(defun bears-load-p (workspace)
+  "Put gravity's load into the workspace.  True if the wrench bears it.
+Each axis may be loaded by a share of what the grasp bears there alone; the shares may not exceed 1
+together, since the axes use the same friction.  Sound: the six capacities, both ways, span a
+cross-polytope of wrenches that the contacts can exert."
+  (declare (type workspace workspace))
+  (let ((load (workspace-load workspace))
+        (wrench (workspace-wrench workspace))
+        (shares 0d0))
+    (declare (double-float shares))
+    (put-load (%box-weight (workspace-box workspace)) (workspace-offset workspace) load)
+    (dotimes (axis 6 (<= shares 1d0))
+      (incf shares (/ (aref load axis) (aref wrench axis))))))
+
+(defun rate (workspace candidate)
+  "Compute the radii and the quality of CANDIDATE.  True if they are numbers in range."
+  (declare (type workspace workspace) (type candidate candidate))
+  (let ((box (workspace-box workspace))
+        (offset (workspace-offset workspace))
+        (spare (workspace-spare workspace)))
+    (dotimes (axis 6)
+      (setf (aref spare axis)
+            (- (aref (workspace-wrench workspace) axis) (aref (workspace-load workspace) axis))))
+    (shift-force (%box-force box) offset (workspace-force-needs workspace))
+    (shift-velocity (%box-velocity box) offset (workspace-velocity-needs workspace))
+    (multiple-value-bind (force-radius force-limit)
+        (embedded-radius (workspace-force-needs workspace) spare)
+      (multiple-value-bind (velocity-radius velocity-limit)
+          (embedded-radius (workspace-velocity-needs workspace) (workspace-twist workspace))
+        (setf (%candidate-force-radius candidate) force-radius
+              (%candidate-force-limit candidate) force-limit
+              (%candidate-velocity-radius candidate) velocity-radius
+              (%candidate-velocity-limit candidate) velocity-limit
+              (%candidate-quality candidate)
+              (quality-index (workspace-gamma workspace) velocity-radius velocity-limit
+                             force-radius force-limit))
+        (finite-p (%candidate-quality candidate))))))
+
+;;; The steps
+
+(define-step conditions :conditions (candidate workspace)
+  (place-box workspace (%candidate-matching candidate))
+  (execute (grasp-conditions (%candidate-grasp candidate)) (workspace-registers workspace)))
+
+(define-step offset :offset (candidate workspace)
+  (find-centre workspace (%candidate-grasp candidate)))
+
+(define-step fingers :fingers (candidate workspace)
+  (fingers-on-faces-p workspace (%candidate-grasp candidate)))
+
+(define-step closure :open (candidate workspace)
+  (compute-capacities workspace (%candidate-grasp candidate) (%candidate-matching candidate)))
+
+(define-step lifting :lifting (candidate workspace)
+  (turn-centre workspace (%candidate-matching candidate) candidate)
+  (bears-load-p workspace))
+
+(define-step quality :open (candidate workspace)
+  (rate workspace candidate))
