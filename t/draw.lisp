@@ -241,6 +241,27 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
   `((size ,@size) (weight 0) (u 0.8) (v 0.2) (constrained)
     (force-needed (1 1 1 1 1 1)) (velocity-needed (1 1 1 1 1 1))))
 
+(test a-picture-needs-the-name-of-a-file
+  (with-folder (folder)
+    (let ((plan (supergrip:plan (sized-box 12 2 2))))
+      (loop for (text file) in
+            `(("7 is no name of a file: it is a string, or a path without wild cards" 7)
+              ("() is no name of a file: it is a string, or a path without wild cards" ())
+              (,(format nil "~s is a directory; a file is wanted" (namestring folder))
+               ,(namestring folder)))
+            do (dolist (draw (list #'supergrip-draw:draw-system #'supergrip-draw:draw-grasps
+                                   (lambda (file) (supergrip-draw:draw-plan plan file))
+                                   (lambda (file) (supergrip-draw:report plan file))))
+                 (is (equal text (handler-case (funcall draw file)
+                                   (supergrip:argument-error (condition)
+                                     (princ-to-string condition)))))))
+      (signals supergrip:argument-error (supergrip-draw:report-index (list plan) 7))
+      (dolist (draw (list #'supergrip-draw:draw-plan #'supergrip-draw:draw-session
+                          #'supergrip-draw:draw-quality #'supergrip-draw:report))
+        (signals supergrip:no-plan-error (funcall draw nil (in-folder folder "x.svg")))
+        (signals supergrip:no-plan-error (funcall draw "x" (in-folder folder "x.svg")))))
+    (is (null (uiop:directory-files folder)) "nothing is written")))
+
 (test what-cannot-be-drawn-is-an-error-of-ours
   (with-folder (folder)
     (loop for size in '((0.6 1d-300 1d300) (1d300 1d300 1d300) (1d-300 1d-300 1d-300)

@@ -48,6 +48,14 @@
         do (let ((reports (box-reports form)))
              (is (eql 0 (search report (or (first reports) ""))) "~s~%gave ~s" form reports))))
 
+(test what-readers-of-a-box-return-may-stand-in-a-box
+  (flet ((constrained (&rest faces)
+           (supergrip:box-constrained
+            (supergrip:parse-box (apply #'changed-box :constrained faces)))))
+    (is (equal '("Z2" "X1") (constrained "Z2" "x1")))
+    (is (equal '("Z2" "X1") (apply #'constrained (constrained 'z2 '|x1|)))))
+  (is (search "\"Z3\" is no surface" (first (box-reports (changed-box :constrained "Z3"))))))
+
 (test all-mistakes-in-a-box-come-at-once
   (is (= 3 (length (box-reports (changed-box :constrained :z2 :q :x9 :z2)))))
   (is (= 4 (length (box-reports '((size 1 1) (weight -1) (u 1) (v 1) (constrained q)

@@ -16,6 +16,8 @@
            . "PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1): the narrowest free pair, Y, is 20 cm; the hand opens to 12")
           ((20 30 12.00001d0) 1.5d0 (x2)
            . "PINCH-3-U-SHAPE (Y1 Y2 Z2 Z1 X2 X1): the narrowest free pair, Z, is 12.00001 cm; the hand opens to 12")
+          ((20 30 12) 1.5d0 (x2)
+           . "PINCH-3-U-SHAPE (Y1 Y2 Z2 Z1 X2 X1): the narrowest free pair, Z, is 12 cm; the hand holds less than 12")
           ((15 20 15.9d0) 0.8d0 (x1 y1 z2)
            . "PINCH-3-CORNER (Z1 Z2 X2 X1 Y2 Y1): the finger places on Y2 and Z1 are 12.78 cm apart, the hand opens to 12; the finger places on X2 and Y2 are 12.5 cm apart, the hand opens to 12")
           ((4 4 4) 0.70710678d0 (z2 y2 x2)

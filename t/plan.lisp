@@ -3,10 +3,6 @@
 (in-package :supergrip-test)
 (in-suite all)
 
-(defparameter *held-readers*
-  '(supergrip:plan-log supergrip:knowledge-warnings)
-  "Readers whose answer is what the plan or the knowledge itself holds.")
-
 (defun readers-of (prefix)
   "Return the exported functions whose names begin with PREFIX, sorted."
   (let ((readers '()))
@@ -37,18 +33,26 @@ candidates."
             (texts "KNOWLEDGE-" (supergrip:plan-knowledge plan))
             (list (cons 'supergrip:possible-grasps
                         (prin1-to-string (supergrip:possible-grasps plan))))
+            (loop for grasp in (supergrip:knowledge-grasps (supergrip:plan-knowledge plan))
+                  append (texts "GRASP-" grasp))
             (loop for candidate in (supergrip:plan-candidates plan)
                   append (texts "CANDIDATE-" candidate)))))
+
+(defun destroy (object)
+  "Destroy OBJECT, if it is a list, and the lists in it."
+  (loop while (consp object)
+        do (destroy (car object))
+           (setf (car object) nil)
+           (shiftf object (cdr object) nil)))
 
 (defun spoil (plan)
   "Destroy every list that a reader of PLAN returns, as a caller may who sorts it."
   (flet ((spoil-answers (prefix object)
            (dolist (reader (readers-of prefix))
-             (unless (member reader *held-readers*)
-               (let ((answer (ask reader object plan)))
-                 (when (consp answer)
-                   (setf (cdr answer) nil (car answer) nil)))))))
+             (destroy (ask reader object plan)))))
     (let ((candidates (supergrip:plan-candidates plan)))
+      (dolist (grasp (supergrip:knowledge-grasps (supergrip:plan-knowledge plan)))
+        (spoil-answers "GRASP-" grasp))
       (spoil-answers "PLAN-" plan)
       (spoil-answers "BOX-" (supergrip:plan-box plan))
       (spoil-answers "KNOWLEDGE-" (supergrip:plan-knowledge plan))

@@ -93,6 +93,38 @@
                                                                     (oddp (length arguments)))
                                                           (list :box (paper-box)))))))))))
 
+(test arguments-that-can-not-be-used-are-told-of
+  (let ((supergrip::*breaks* '()) (supergrip::*traced* '())
+        (plan (supergrip::plan (paper-box))))
+    (loop for (text function . arguments) in
+          `(("RULES is no key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :STREAM, :TRACE, :STEP"
+             supergrip:forward-chain :box ,(paper-box) rules 3)
+            ("GRASPS is no stream that can be printed to"
+             supergrip:forward-chain ,(paper-box) :stream grasps)
+            ("3 is no stream that can be printed to" supergrip:write-transcript ,plan 3)
+            ("3 is no name of a file: it is a string, or a path without wild cards"
+             supergrip:load-knowledge :rules 3)
+            ("() is no name of a file: it is a string, or a path without wild cards"
+             supergrip:load-knowledge :grasps ())
+            ("3 is no break: it is a name or a fact, as (PARALLEL (Y2 Y1))" supergrip:unbreak 3)
+            ("COLOUR is no key of a box: keys are SIZE, WEIGHT, U, V, CONSTRAINED, FORCE-NEEDED, VELOCITY-NEEDED, NAME"
+             supergrip:box-value ,(supergrip:plan-box plan) :colour))
+          do (is (equal text (error-text (apply function arguments)))))
+    (is (search "is no name of a file" (error-text (supergrip:reload-knowledge :rules #p"*.lisp"))))
+    (is (equal "" (with-output-to-string (*standard-output*)
+                    (supergrip:write-transcript plan nil))))))
+
+(test breaks-on-facts-are-named-in-any-way
+  (let ((supergrip:*plan* nil) (supergrip::*breaks* '()) (stops 0))
+    (is (= 1 (length (supergrip:break-on '("corner" ("z1" "y2" "x2"))))))
+    (is (= 1 (length (supergrip:break-on '(corner (x2 y2 z1))))))
+    (handler-bind ((supergrip:chain-break (lambda (condition)
+                                            (incf stops)
+                                            (invoke-restart (find-restart 'continue condition)))))
+      (supergrip:forward-chain (paper-box) :stream nil))
+    (is (= 1 stops))
+    (is (null (supergrip:unbreak '(corner ("Y2" x2 :z1)))))))
+
 (test questions-at-a-stop-are-about-the-run-in-hand
   (let ((supergrip:*plan* (supergrip::plan (plan-box-too-heavy)))
         (supergrip::*breaks* '())

@@ -19,7 +19,7 @@ in them.")
    ;; text
    #:plainly #:plain-text
    ;; conditions
-   #:supergrip-error #:input-error #:input-error-problems
+   #:supergrip-error #:argument-error #:refuse-argument #:input-error #:input-error-problems
    #:syntax-error #:box-error #:knowledge-error #:knowledge-error-consequence
    #:knowledge-warning    #:knowledge-warning-problems
    #:retry

@@ -41,6 +41,15 @@ far as it is known; SUBJECT is the rule, grasp or box (\"RULE GRIP1\"), PLACE th
   (declare (ignorable stream))
   (plainly (call-next-method)))
 
+(define-condition argument-error (supergrip-error)
+  ((text :initarg :text))
+  (:report (lambda (condition stream) (write-string (slot-value condition 'text) stream)))
+  (:documentation "A function was given something that it can't use."))
+
+(defun refuse-argument (control &rest arguments)
+  "Signal an ARGUMENT-ERROR that says what CONTROL and ARGUMENTS say."
+  (error 'argument-error :text (apply #'plain-text control arguments)))
+
 (define-condition input-error (supergrip-error)
   ((problems :initarg :problems :reader input-error-problems
              :documentation "The list of PROBLEMs, all of them, in the order of the file."))

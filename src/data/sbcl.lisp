@@ -56,10 +56,13 @@ caller has set."
 (defun native-path (file &key directory)
   "Return the path of FILE: a path, or its name as the system has it, a string in which no character
 but / means anything.  If DIRECTORY is true, it is a directory, with or without a / at its end."
-  (if (stringp file)
-      (sb-ext:parse-native-namestring file nil *default-pathname-defaults*
-                                      :as-directory directory)
-      (if directory (uiop:ensure-directory-pathname file) (pathname file))))
+  (cond ((stringp file)
+         (sb-ext:parse-native-namestring file nil *default-pathname-defaults*
+                                         :as-directory directory))
+        ((and (pathnamep file) (not (wild-pathname-p file)))
+         (if directory (uiop:ensure-directory-pathname file) file))
+        (t (refuse-argument "~a is no name of a file: it is a string, or a path without wild cards"
+                            (form-text file)))))
 
 ;;; Files, with the system's reason where something can't be done
 

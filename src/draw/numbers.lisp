@@ -118,8 +118,7 @@ very large or small.  What is not zero is not written as zero."
                          (let ((*print-readably* nil) (*read-eval* nil))
                            ,@body))))
          (cond ((stringp ,value) (call-drawing ,value #',run))
-               (t (check-type ,value plan)
-                  (call-drawing-box (plan-box ,value) #',run)))))))
+               (t (call-drawing-box (plan-box ,value) #',run)))))))
 
 (defun check-coordinate (number)
   "Return NUMBER, a coordinate of a picture, or signal an error if no picture can have it."

@@ -3,6 +3,8 @@
 (defpackage :supergrip-draw
   (:use :cl :supergrip)
   (:lock t)
+  (:import-from :supergrip #:need-plan)
+  (:import-from :supergrip-data #:native-path #:refuse-argument #:form-text)
   (:import-from :supergrip-chainer #:face-index #:face-name #:face-axis #:face-sign
                 #:opposite)
   (:documentation "Pictures of boxes, grasps and plans, as SVG, and reports, as HTML.")

@@ -145,4 +145,4 @@
 (defun draw-plan (plan file)
   "Draw the box of PLAN and its best grasp, or the box that can't be grasped, into FILE, an SVG
 picture: in three dimensions and from three sides, to scale.  Lengths in cm.  Returns FILE."
-  (drawing (plan) (save-picture (plan-picture plan) file)))
+  (drawing ((need-plan plan)) (save-picture (plan-picture plan) file)))

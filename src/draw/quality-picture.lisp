@@ -107,4 +107,4 @@ y below."
 (defun draw-quality (plan file &key (count 3))
   "Draw, for the COUNT best candidates of PLAN, what they have against what the task needs on all
 twelve axes, the limiting ones marked, into FILE, an SVG picture.  Returns FILE."
-  (drawing (plan) (save-picture (quality-picture plan count) file)))
+  (drawing ((need-plan plan)) (save-picture (quality-picture plan count) file)))

@@ -339,7 +339,7 @@ needed."
 (defun rule-lines (rule)
   "Return the text of RULE, a clause or an action a line."
   (destructuring-bind (name conditions actions) (rest (supergrip-chainer:rule-form rule))
-    (flet ((text (form) (supergrip-data:form-text form nil)))
+    (flet ((text (form) (form-text form nil)))
       (format nil "(RULE ~a~%  (IF ~{~a~^~%      ~})~%  (THEN ~{~a~^~%        ~}))" (text name)
               (mapcar #'text (rest conditions)) (mapcar #'text (rest actions))))))
 
@@ -364,7 +364,7 @@ needed."
 pictures, what would change the choice, all candidates with the reasons of those that failed, and
 what the rules found, each fact linked to the rule and to the facts that made it.  Needs
 no network and no script.  Returns FILE."
-  (drawing (plan) (write-page plan file)))
+  (drawing ((need-plan plan)) (write-page plan file)))
 
 (defun write-page (plan file)
   (with-page (file (format nil "SUPER-GRIP: ~a" (page-title plan)))
@@ -407,7 +407,7 @@ no network and no script.  Returns FILE."
 
 (defun thumbnail (plan)
   "Return a small picture of PLAN without words."
-  (drawing (plan)
+  (drawing ((need-plan plan))
     (let* ((best (plan-best plan))
            (subject (if best (grasp-subject best plan) (box-subject (plan-box plan))))
            (camera (best-camera (list subject))))
@@ -448,9 +448,7 @@ no network and no script.  Returns FILE."
   "Write index.html into DIRECTORY: a thumbnail and the verdict of each of PLANS, in their order,
 each linked to its page; and, unless PAGES is NIL, these pages, too.  Where a page can't be drawn,
 the index says why.  Returns the index's name, and the number of pages that can't be drawn."
-  (let* ((directory (if (stringp directory)
-                        (path-of (format nil "~a/" directory))
-                        (uiop:ensure-directory-pathname directory)))
+  (let* ((directory (native-path directory :directory t))
          (problems (loop for plan in plans
                          for number from 1
                          collect (page-problem plan (and pages (merge-pathnames

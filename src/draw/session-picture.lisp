@@ -65,4 +65,4 @@
 (defun draw-session (plan file &key (count 3))
   "Draw the COUNT best possible grasps of PLAN side by side, all seen from one place, into FILE, an
 SVG picture: for the pencil, the paper's Figure 4.  Returns FILE."
-  (drawing (plan) (save-picture (session-picture plan count) file)))
+  (drawing ((need-plan plan)) (save-picture (session-picture plan count) file)))

@@ -179,8 +179,11 @@ the style and the patterns."
             width height (picture-body picture))))
 
 (defun path-of (file)
-  "Return the pathname of FILE, a pathname, or a string that is taken as it stands."
-  (if (stringp file) (uiop:parse-native-namestring file) file))
+  "Return the path of FILE, a path, or a string that is taken as it stands."
+  (let ((path (native-path file)))
+    (if (pathname-name path)
+        path
+        (refuse-argument "~a is a directory; a file is wanted" (form-text file)))))
 
 (defun call-writing (file function)
   "Call FUNCTION with a stream of UTF-8 text, and put what it wrote in the place of FILE: nobody sees

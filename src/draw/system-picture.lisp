@@ -84,4 +84,4 @@ possible, with its quality; the best of it is the plan.")
 
 (defun draw-system (file)
   "Draw how SUPER-GRIP works into FILE, an SVG picture: the paper's Figure 3.  Returns FILE."
-  (save-picture (system-picture) file))
+  (drawing ("the block diagram") (save-picture (system-picture) file)))

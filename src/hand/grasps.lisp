@@ -3,14 +3,15 @@
 (in-package :supergrip)
 
 (defstruct grasp
-  "A grasp mode.  USED is the list of the grasp faces that it uses, PALM the one that the palm faces,
-CONTACTS a list of (GRASP-FACE P Q), P and Q being registers; PLACES holds the same as axes (0 to 2) and
-registers in turn, without the axes that the faces are normal to.  The other parts are PROGRAMs;
-COMPARISONS is an alist from the comparisons in CONDITIONS-NODE to those of their operands.
+  "A grasp mode.  DEFINITION is the form that was read, USED the list of the grasp faces that it uses,
+PALM the one that the palm faces, CONTACTS a list of (GRASP-FACE P Q), P and Q being registers; PLACES
+holds the same as axes (0 to 2) and registers in turn, without the axes that the faces are normal to.
+The other parts are PROGRAMs; COMPARISONS is an alist from the comparisons in CONDITIONS-NODE to those of their operands.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
 SAME, for each matching, the set of those that are the same grasp, itself included."
   (name "" :type string :read-only t) (index 0 :type fixnum :read-only t)
-  (form nil :read-only t) (file nil :read-only t) (line nil :read-only t) (comment '() :read-only t)
+  (definition nil :read-only t)
+  (file nil :read-only t) (line nil :read-only t) (comment '() :read-only t)
   (used '() :type list :read-only t) (palm 0 :type fixnum :read-only t)
   (conditions-node nil :read-only t) (conditions nil :type (or null program) :read-only t)
   (comparisons '() :type list :read-only t)
@@ -23,6 +24,10 @@ SAME, for each matching, the set of those that are the same grasp, itself includ
    :type (simple-array (unsigned-byte 24) (64)) :read-only t)
   (same (make-array 24 :element-type '(unsigned-byte 24))
    :type (simple-array (unsigned-byte 24) (24)) :read-only t))
+
+(defun grasp-form (grasp)
+  "Return the form that defines GRASP, as it was read."
+  (copy-tree (grasp-definition grasp)))
 
 (defmethod print-object ((grasp grasp) stream)
   (print-unreadable-object (grasp stream :type t)
@@ -260,7 +265,7 @@ has one of them."
          (positions (numbers-program (loop for (nil . place) in contacts append place) layout))
          (places (coerce (program-results positions) 'list)))
     (make-grasp
-     :name (draft-name draft) :index index :form (draft-form draft) :file (draft-file draft)
+     :name (draft-name draft) :index index :definition (draft-form draft) :file (draft-file draft)
      :line (draft-line draft) :comment (draft-comment draft)
      :used (draft-used draft) :palm (draft-palm draft)
      :conditions-node conditions

@@ -60,9 +60,14 @@ is among the others of the box, for BOX-VALUE."
   (find key *box-keys* :key #'box-key-key))
 
 (defun box-value (box key)
-  "Return what BOX gives for KEY, a keyword: as the description has it, or NIL.  For keys that
+  "Return what BOX gives for KEY, a symbol or a string: as the description has it, or NIL.  For keys that
 DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles."
-  (funcall (box-key-reader (find-key key)) box))
+  (let ((row (find (and (or (symbolp key) (stringp key)) (string-upcase key)) *box-keys*
+                   :key #'box-key-key :test #'string=)))
+    (if row
+        (funcall (box-key-reader row) box)
+        (refuse-argument "~a is no key of a box: keys are ~{~a~^, ~}" (form-text key)
+                         (mapcar #'box-key-key *box-keys*)))))
 
 (defun spread-p (row)
   "True if the values of the key ROW follow it one by one; in JSON they are an array."
@@ -187,7 +192,7 @@ its clause, give.  NIL after a complaint."))
   (let ((set 0) (good t))
     (loop for value in values
           for number from 0
-          do (let ((face (and (namep value) (face-index value))))
+          do (let ((face (and (or (namep value) (stringp value)) (face-index value))))
                (cond ((null face)
                       (setf good (complain (value-spot row number)
                                            "~a is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 ~

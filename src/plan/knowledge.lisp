@@ -5,15 +5,19 @@
 (defstruct (knowledge (:constructor %make-knowledge))
   "Rules and grasps, ready for use; immutable, but for SPARE, scratch space that plans give back (see
 START-PLAN).  INPUTS are the preliminary assertions, prepared.  RULE-FILE and GRASP-FILE are what they
-were made of, WARNINGS the PROBLEMs that did not prevent it."
+were made of, COMPLAINTS the PROBLEMs that did not prevent it."
   (rule-file nil :read-only t)
   (grasp-file nil :read-only t)
   (rulebase nil :type rulebase :read-only t)
   (graspbase nil :type graspbase :read-only t)
   (predicates #() :type simple-vector :read-only t)
   (inputs '() :type list :read-only t)
-  (warnings '() :type list :read-only t)
+  (complaints '() :type list :read-only t)
   (spare '() :type list))
+
+(defun knowledge-warnings (knowledge)
+  "Return the PROBLEMs of KNOWLEDGE that did not prevent its use."
+  (copy-list (knowledge-complaints knowledge)))
 
 (defmethod print-object ((knowledge knowledge) stream)
   (print-unreadable-object (knowledge stream :type t)
@@ -44,7 +48,7 @@ a table from form to line, COMMENTS, one from form to comment, and the PROBLEMS 
                    :rule-file rule-file :grasp-file grasp-file
                    :predicates (rulebase-predicates rulebase)
                    :inputs (prepare-inputs rulebase graspbase)
-                   :warnings (warnings-in problems)))
+                   :complaints (warnings-in problems)))
 
 (defmacro with-data-file ((file) &body body)
   "Run BODY with what it complains of placed in the data file FILE."
@@ -98,7 +102,7 @@ What is wrong is left out."
     (dolist (grasp (graspbase-grasps graspbase))
       (unless (gethash (grasp-name grasp) tried)
         (let ((*subject* (format nil "GRASP ~a" (grasp-name grasp))))
-          (complain (grasp-form grasp) '(:warning "no rule tries it")))))))
+          (complain (grasp-definition grasp) '(:warning "no rule tries it")))))))
 
 ;;; Files
 

@@ -28,15 +28,6 @@
                    (write-string "there is no plan yet: call (forward-chain) first" stream)))))
   (:documentation "A question about a plan was asked before there was one, or of something else."))
 
-(define-condition argument-error (supergrip-error)
-  ((text :initarg :text))
-  (:report (lambda (condition stream) (write-string (slot-value condition 'text) stream)))
-  (:documentation "A function was given something that it can't use."))
-
-(defun refuse-argument (control &rest arguments)
-  "Signal an ARGUMENT-ERROR that says what CONTROL and ARGUMENTS say."
-  (error 'argument-error :text (apply #'format nil control arguments)))
-
 (defun check-knowledge-argument (object)
   "Return OBJECT if it is knowledge."
   (if (knowledge-p object)
@@ -70,7 +61,7 @@ more."
   (gamma 0.5d0 :type double-float :read-only t)
   (stop nil :read-only t)
   (best nil :read-only t)
-  (log '() :type list :read-only t)     ; see DO-LOG
+  (entries '() :type list :read-only t) ; see DO-LOG
   (facts nil :type (or null saved-facts) :read-only t)
   (only-grasp nil :read-only t))        ; the name of the grasp that was tried without rules
 
@@ -86,7 +77,11 @@ EVENT-FACT)."
 
 (defun plan-events (plan)
   "Return the events of PLAN, each a fact that a rule remembered, in order: see EVENT-FACT."
-  (remove-if #'candidate-p (plan-log plan)))
+  (loop for entry in (plan-entries plan) unless (candidate-p entry) collect entry))
+
+(defun plan-log (plan)
+  "Return all that happened in PLAN, in order: candidates, and events (see PLAN-EVENTS)."
+  (copy-list (plan-entries plan)))
 
 (defun need-plan (plan)
   (if (plan-p plan) plan (error 'no-plan-error :given plan)))
@@ -161,7 +156,7 @@ Rules that end without KEEP or CANT keep the best."
                        :gamma (workspace-gamma workspace) :stop stop :only-grasp only-grasp
                        :best (and (not (and stop (eq (stop-verdict stop) :cant)))
                                   (workspace-best workspace))
-                       :log (nreverse (memory-log memory)) :facts (save-facts memory))
+                       :entries (nreverse (memory-log memory)) :facts (save-facts memory))
       (give-back memory knowledge))))
 
 (defun waiting-p (stop)
@@ -206,7 +201,7 @@ Rules that end without KEEP or CANT keep the best."
 
 (defun plan-candidates (&optional (plan *plan*))
   "Return the candidates of PLAN, a new list, in the order in which they were tried."
-  (loop for entry in (plan-log (need-plan plan)) when (candidate-p entry) collect entry))
+  (loop for entry in (plan-entries (need-plan plan)) when (candidate-p entry) collect entry))
 
 (defun possible-p (candidate)
   (eq (%candidate-outcome candidate) :possible))

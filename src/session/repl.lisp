@@ -20,7 +20,13 @@ ARGUMENTS are keys and values: :BOX a box or a description of one, by default wh
 gave, which may also stand first, without its key; :KNOWLEDGE, by default what is in force; :GAMMA
 weighs velocities (1) against forces (0); :STREAM is where to print, NIL for not at all; :TRACE says
 how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger before each rule."
-  (apply #'chain-box (if (oddp (length arguments)) (cons :box arguments) arguments)))
+  (let ((arguments (if (oddp (length arguments)) (cons :box arguments) arguments))
+        (keys '(:box :knowledge :gamma :stream :trace :step)))
+    (loop for (key) on arguments by #'cddr
+          unless (member key keys)
+            do (refuse-argument "~a is no key of FORWARD-CHAIN: keys are ~{:~a~^, ~}" (form-text key)
+                                keys))
+    (apply #'chain-box arguments)))
 
 (defun chain-box (&key ((:box given) *box*) (knowledge *knowledge*) (gamma *gamma*)
                     (stream *standard-output*) ((:trace level) *trace-level*) step)
@@ -29,7 +35,7 @@ how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger bef
     (error 'no-box-error))
   (let ((level (check-trace-level level))
         (knowledge (check-knowledge-argument knowledge))
-        (stream (if (eq stream t) *standard-output* stream)))
+        (stream (output-stream stream)))
     (if (or step *traced* *breaks* (> level 1))
         (setf *plan* (traced-plan given knowledge gamma level step
                                   (if (and stream (or (plusp level) *traced*))

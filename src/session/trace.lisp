@@ -35,7 +35,7 @@ the names of all that is traced."
 
 (defun untrace-rule (&rest names)
   "Trace the rules NAMES no longer; without NAMES, nothing.  Returns the names of what still is."
-  (setf *traced* (and names (set-difference *traced* (mapcar #'name-of names)
+  (setf *traced* (and names (set-difference *traced* (mapcar #'break-text names)
                                             :test #'string=))))
 
 (defun untrace-grasp (&rest names)
@@ -45,16 +45,28 @@ the names of all that is traced."
 (defun break-on (what)
   "Stop a run of FORWARD-CHAIN in the debugger before the rule WHAT, a symbol or a string, or when the
 fact WHAT, as '(PARALLEL (Y2 Y1)), becomes known.  Returns all breaks."
-  (when (consp what)
-    (parse-fact what (knowledge-rulebase *knowledge*)))
-  (pushnew (if (consp what) (form-text (canonical what)) (check-name what)) *breaks*
-           :test #'string=)
+  (unless (consp what)
+    (check-name what))
+  (pushnew (break-text what) *breaks* :test #'string=)
   *breaks*)
+
+(defun break-text (what)
+  "Return the text that stands for WHAT, a name or a fact with its faces in any order, among *BREAKS*."
+  (cond ((consp what)
+         (multiple-value-call #'sorted-fact-text
+           (parse-fact what (knowledge-rulebase *knowledge*))))
+        ((name-of what))
+        (t (refuse-argument "~a is no break: it is a name or a fact, as (PARALLEL (Y2 Y1))"
+                            (form-text what)))))
+
+(defun sorted-fact-text (predicate face-list)
+  "Return the sentence of PREDICATE and the faces of FACE-LIST, these in alphabetic order."
+  (plain-text "(~a~@[ (~{~a~^ ~})~])" (predicate-text predicate)
+              (sort (copy-list (face-list-names face-list)) #'string<)))
 
 (defun unbreak (&optional (what nil given))
   "Take back (BREAK-ON WHAT); without WHAT, all.  Returns the breaks that are left."
-  (setf *breaks* (and given (remove (if (consp what) (form-text (canonical what)) (string-upcase what))
-                                    *breaks* :test #'string=))))
+  (setf *breaks* (and given (remove (break-text what) *breaks* :test #'string=))))
 
 ;;; Stops
 
@@ -80,17 +92,9 @@ rule, CONTINUE to the next break."))
 
 (defun fact-broken-p (event rulebase)
   "True if the fact of EVENT is one to stop on, its faces in any order."
-  (multiple-value-bind (predicate face-list) (event-fact event rulebase)
-    (some (lambda (text) (fact-matches-p text predicate face-list)) *breaks*)))
-
-(defun fact-matches-p (text predicate face-list)
-  (let* ((form (and (char= (char text 0) #\()
-                    (first (read-all (string-source text)))))
-         (faces (find-if #'consp form)))
-    (and form
-         (equal (mapcar #'symbol-name (remove-if #'consp form)) (predicate-words predicate))
-         (null (set-exclusive-or (mapcar #'symbol-name faces) (face-list-names face-list)
-                                 :test #'string=)))))
+  (and *breaks*
+       (member (multiple-value-call #'sorted-fact-text (event-fact event rulebase)) *breaks*
+               :test #'string=)))
 
 (defun next-rule ()
   "Invoke the restart NEXT-RULE: go on to the next rule and stop there."
@@ -181,7 +185,7 @@ and the memory that the rules run on.  RUN-OBSERVED gets ARGUMENTS, too."
   (%make-plan :box (plan-box plan) :knowledge (plan-knowledge plan) :gamma (plan-gamma plan)
               :stop (make-stop :verdict (if begun :within :before) :rule rule)
               :best (workspace-best (memory-client memory))
-              :log (reverse (memory-log memory)) :facts (save-facts memory)))
+              :entries (reverse (memory-log memory)) :facts (save-facts memory)))
 
 (defun traced-plan (box knowledge gamma level step stream)
   "Return the plan for BOX, writing to STREAM what LEVEL and the traced names ask for as it comes."

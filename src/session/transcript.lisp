@@ -26,11 +26,20 @@
                    (plan-reason plan)))
           (t (format stream "(CANT GRASP: ~a)~%" (plan-reason plan))))))
 
+(defun output-stream (stream)
+  "Return STREAM, or *STANDARD-OUTPUT* if it is T; NIL, for nowhere, stays NIL."
+  (cond ((eq stream t) *standard-output*)
+        ((or (null stream)
+             (and (streamp stream) (open-stream-p stream) (output-stream-p stream)))
+         stream)
+        (t (refuse-argument "~a is no stream that can be printed to" (form-text stream)))))
+
 (defun write-transcript (plan &optional (stream *standard-output*))
-  "Write PLAN to STREAM in the lines of the paper's session."
-  (let ((rulebase (knowledge-rulebase (plan-knowledge (need-plan plan)))))
+  "Write PLAN to STREAM, or nowhere if that is NIL, in the lines of the paper's session."
+  (let ((rulebase (knowledge-rulebase (plan-knowledge (need-plan plan))))
+        (stream (or (output-stream stream) (make-broadcast-stream))))
     (plainly
-      (do-log ((plan-log plan))
+      (do-log ((plan-entries plan))
         (candidate (write-candidate candidate stream))
         (event (write-event event rulebase stream)))
       (write-verdict plan stream)

@@ -168,22 +168,24 @@ which hold what box and matching give: all that would have to change for it to b
                      (input-names node matching) figure)))))
 
 (defparameter +demands+
-  '(("DIST-PINCH" ("<" "<=") "the hand opens to ~a")
-    ("FINGER-WIDTH" (">" ">=") "a fingertip needs ~a")
-    ("FINGER-SPREAD" (">" ">=") "two fingers side by side need ~a")
-    ("WIDTH-HAND" (">" ">=") "the hand needs more than ~a"))
-  "What a comparison of a distance with a dimension of the gripper asks, in words.")
+  '(("DIST-PINCH" ("<" "<=") "the hand opens to ~a" "the hand holds less than ~a")
+    ("FINGER-WIDTH" (">" ">=") "a fingertip needs ~a" "a fingertip needs more than ~a")
+    ("FINGER-SPREAD" (">" ">=") "two fingers side by side need ~a"
+     "two fingers side by side need more than ~a")
+    ("WIDTH-HAND" (">" ">=") "the hand needs more than ~a" "the hand needs more than ~a"))
+  "What a comparison of a distance with a dimension of the gripper asks, in words; and if the two are
+equal.")
 
-(defun demand-words (node op figure other form)
-  "Return in words that NODE must be OP, a string, as against FIGURE, the value of FORM; OTHER is its
-node."
+(defun demand-words (node number op figure other form)
+  "Return in words that NODE, which is NUMBER, must be OP, a string, as against FIGURE, the value of
+FORM; OTHER is its node.  NUMBER and FIGURE are texts."
   (let* ((name (and (namep form) (constant-p other) (symbol-name form)))
          (demand (and (or (distance-axis node) (places-axes node))
                       (find-if (lambda (row) (and (equal name (first row))
                                                   (member op (second row) :test #'string=)))
                                +demands+))))
     (if demand
-        (format nil (third demand) figure)
+        (format nil (if (string= number figure) (fourth demand) (third demand)) figure)
         (format nil "must be ~a ~a~@[ (~a)~]" op figure name))))
 
 (defun operand-forms (form)
@@ -216,7 +218,7 @@ exchanged if TURNED."
   (multiple-value-bind (node number op other other-number form) (comparison-parts fault)
     (destructuring-bind (text other-text) (number-texts number other-number)
       (format nil "~a, ~a" (operand-words node text grasp matching)
-              (demand-words node op other-text other form)))))
+              (demand-words node text op other-text other form)))))
 
 (defun fault-words (fault grasp matching)
   "Return FAULT of GRASP in MATCHING in words, with its figures."
@@ -294,4 +296,4 @@ exchanged if TURNED."
             (destructuring-bind (text limit-text) (number-texts number limit)
               (format nil "the narrowest free pair, ~a, is ~a cm; ~a"
                       (char "XYZ" (aref (matching-axes (%candidate-matching candidate)) axis))
-                      text (demand-words node op limit-text other form)))))))))
+                      text (demand-words node text op limit-text other form)))))))))
