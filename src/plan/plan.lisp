@@ -76,7 +76,8 @@ EVENT-FACT)."
            (let ((,event ,entry)) ,@event-body)))))
 
 (defun plan-events (plan)
-  "Return the events of PLAN, each a fact that a rule remembered, in order: see EVENT-FACT."
+  "Return the events of PLAN, each a fact that a rule remembered, a new list in order: see EVENT-FACT."
+  ;; REMOVE-IF might share its end with the log.
   (loop for entry in (plan-entries plan) unless (candidate-p entry) collect entry))
 
 (defun plan-log (plan)
