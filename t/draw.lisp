@@ -256,6 +256,12 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                                    (supergrip:argument-error (condition)
                                      (princ-to-string condition)))))))
       (signals supergrip:argument-error (supergrip-draw:report-index (list plan) 7))
+      (signals supergrip:no-plan-error (supergrip-draw:report-index '(7) folder))
+      (signals supergrip:no-plan-error (supergrip-draw:report-index 7 folder))
+      (signals supergrip:argument-error
+        (supergrip-draw:draw-grasps (in-folder folder "x.svg") :knowledge nil))
+      (signals supergrip:argument-error
+        (supergrip-draw:draw-offset (in-folder folder "x.svg") :knowledge 7))
       (dolist (draw (list #'supergrip-draw:draw-plan #'supergrip-draw:draw-session
                           #'supergrip-draw:draw-quality #'supergrip-draw:report))
         (signals supergrip:no-plan-error (funcall draw nil (in-folder folder "x.svg")))

@@ -192,4 +192,5 @@ long, neither too large nor too small for the fingers; USUAL is a size in the mi
 (defun draw-grasps (file &key (knowledge *knowledge*))
   "Draw all grasps of KNOWLEDGE, each on a reference box, into FILE, an SVG picture: the paper's
 Figure 1.  Only the data of a grasp are used, so a new one is drawn, too.  Returns FILE."
-  (drawing ("the grasp modes") (save-picture (grasps-picture knowledge) file)))
+  (drawing ("the grasp modes")
+    (save-picture (grasps-picture (check-knowledge-argument knowledge)) file)))

@@ -153,4 +153,5 @@ is narrower than the distance of the fingers' bases, the inner links reach down 
   "Draw what the offset of a grasp is, on two boxes too tall for the gripper of KNOWLEDGE, into
 FILE, an SVG picture: the paper's Figure 2.  KNOWLEDGE must have PINCH-2-PARALLEL, and its
 gripper one of the shipped one's size, or a DRAWING-ERROR says so.  Returns FILE."
-  (drawing ("the offset") (save-picture (offset-picture knowledge) file)))
+  (drawing ("the offset")
+    (save-picture (offset-picture (check-knowledge-argument knowledge)) file)))

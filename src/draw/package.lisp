@@ -3,7 +3,7 @@
 (defpackage :supergrip-draw
   (:use :cl :supergrip)
   (:lock t)
-  (:import-from :supergrip #:need-plan)
+  (:import-from :supergrip #:need-plan #:check-knowledge-argument)
   (:import-from :supergrip-data #:native-path #:refuse-argument #:form-text)
   (:import-from :supergrip-chainer #:face-index #:face-name #:face-axis #:face-sign
                 #:opposite)

@@ -449,6 +449,7 @@ no network and no script.  Returns FILE."
 each linked to its page; and, unless PAGES is NIL, these pages, too.  Where a page can't be drawn,
 the index says why.  Returns the index's name, and the number of pages that can't be drawn."
   (let* ((directory (native-path directory :directory t))
+         (plans (mapcar #'need-plan (if (listp plans) plans (list plans))))
          (problems (loop for plan in plans
                          for number from 1
                          collect (page-problem plan (and pages (merge-pathnames
