@@ -4,7 +4,7 @@
 
 (defsystem "supergrip"
   :description "An expert system that chooses the best grasp of a three-fingered gripper on a box."
-  :version "0.1.0"
+  :version "0.2.0"
   :author "The SUPER-GRIP developers"
   :license "MIT"
   :depends-on ("supergrip/chainer")
@@ -56,7 +56,7 @@
 
 (defsystem "supergrip/batch"
   :description "Many boxes in, one record a box out, in one process; and the command line."
-  :version "0.1.0"
+  :version "0.2.0"
   :license "MIT"
   :depends-on ("supergrip")
   :pathname "src/"
@@ -76,7 +76,7 @@
 
 (defsystem "supergrip/draw"
   :description "Pictures of boxes, grasps and plans, as SVG, and reports, as HTML."
-  :version "0.1.0"
+  :version "0.2.0"
   :license "MIT"
   :depends-on ("supergrip" "cl-who")
   :pathname "src/draw/"
@@ -104,7 +104,7 @@
 
 (defsystem "supergrip/chainer"
   :description "The upper level alone: the data reader, and an s-expression forward chainer."
-  :version "0.1.0"
+  :version "0.2.0"
   :license "MIT"
   :pathname "src/"
   :serial t

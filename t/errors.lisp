@@ -96,7 +96,7 @@
   "Return the data file that holds TEXT."
   (handler-case
       (multiple-value-bind (forms lines comments)
-          (supergrip-data:read-all (supergrip-data:string-source text :name name))
+          (supergrip-data:read-all (supergrip-data:string-source text :name name) :loose-names t)
         (supergrip::make-data-file :name name :forms forms :lines lines :comments comments))
     (supergrip:syntax-error (condition)
       (supergrip::make-data-file :name name

@@ -47,6 +47,11 @@
      "rules.lisp:14: RULE without a name: a rule is (RULE name (IF clause...) (THEN action...))")
     (:RULES "(RULE END" "hello (RULE END"
      "rules.lisp:14: HELLO is no rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
+    (:RULES "(RULE END" "
+12 (RULE END"
+     "rules.lisp:15: 12 is no rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
+    (:GRASPS "(DEFUN HALF" "() (DEFUN HALF"
+     "grasps.lisp:4: a grasp file holds (SETQ GRIPPER '(...)), (DEFUN name (parameter...) form) and (SETQ grasp '(...)), not ()")
     (:RULES "(RULE END" "(RULES END"
      "rules.lisp:14: (RULES END (IF (OBJECT HAS PARALLEL SURFACES)) (THEN (KEEP BEST))) is no rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(WHEN (PARALLEL (s1 s2)))"

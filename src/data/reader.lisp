@@ -404,17 +404,23 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
       (fail-at source line column "dotted pairs are not read"))
     (canonical-name (nstring-upcase (subseq text 0 count)))))
 
-(defun read-all (source)
+(defun read-all (source &key loose-names)
   "Read all forms of SOURCE.  Returns their list, a table from each list in them, and each outermost
-name, to its line, and one from each outermost list to the lines of the comment just before it."
+name, to its line, and one from each outermost list to the lines of the comment just before it.
+If LOOSE-NAMES is true, whatever stands outside all lists is a name of its letters, so that it has a
+line, too."
   (let ((lines (make-hash-table :test #'eq))
         (comments (make-hash-table :test #'eq)))
     (setf (source-lines source) lines
           (source-comments source) comments)
-    (values (loop for form = (read-datum source)
-                  until (eq form (end-of-data))
-                  when (namep form) do (setf (gethash form lines) (record-start-line source))
-                  collect form)
+    (values (loop for datum = (read-datum source)
+                  until (eq datum (end-of-data))
+                  collect (let ((form (if (and loose-names (not (consp datum)))
+                                          (make-symbol (form-text datum))
+                                          datum)))
+                            (when (namep form)
+                              (setf (gethash form lines) (record-start-line source)))
+                            form))
             lines
             comments)))
 

@@ -145,7 +145,7 @@ being read is among its problems."
       (handler-case
           (if path
               (multiple-value-bind (forms lines comments)
-                  (read-all (file-source (file-text (native-name path)) name))
+                  (read-all (file-source (file-text (native-name path)) name) :loose-names t)
                 (make-data-file :path path :name name :forms forms :lines lines
                                 :comments comments))
               file)
