@@ -451,3 +451,14 @@
     (let ((records (shipped "examples/boxes.lisp")))
       (is (equal '("grasp" "grasp" "grasp" "cant") (statuses records)))
       (is (equal records (shipped "examples/boxes.jsonl"))))))
+
+(test marks-before-a-record-end-the-one-that-is-open
+  ;; A byte order mark and the separator of JSON text sequences, in any order, are no part of a record.
+  (dolist (marks (list "" (string (code-char #xfeff)) (string (code-char 30))
+                       (format nil "~c~c" (code-char #xfeff) (code-char 30))
+                       (format nil "~c~c" (code-char 30) (code-char #xfeff))))
+    (is (equal '("grasp" "grasp")
+               (rest (statuses (answers (format nil "{\"size\": [1,~%~a~a~%~a~a~%"
+                                                marks (substitute #\Space #\Newline *json-pencil*)
+                                                marks (substitute #\Space #\Newline *json-pencil*))))))
+        "~s" marks)))

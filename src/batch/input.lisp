@@ -176,12 +176,12 @@ The second value is true if more characters are needed to tell."
                 (and (member :maybe answers) t))))))
 
 (defun after-mark (input place)
-  "Return PLACE, or the one after it if a mark or a separator stands there."
-  (if (and (< place (input-end input))
-           (find (schar (input-characters input) place)
-                 (load-time-value (coerce (list +mark+ +separator+) 'simple-string))))
-      (1+ place)
-      place))
+  "Return PLACE, or the one after the marks and separators that stand there."
+  (loop while (and (< place (input-end input))
+                   (find (schar (input-characters input) place)
+                         (load-time-value (coerce (list +mark+ +separator+) 'simple-string))))
+        do (incf place))
+  place)
 
 (defun record-starts-p (input)
   "True if the line at the place of INPUT starts a record; gets more characters if it must."
