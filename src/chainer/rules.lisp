@@ -1,4 +1,7 @@
 ;;;; rules.lisp -- a rule is read from its form, and checked.
+;;;;
+;;;; What an action is stands here (DEFINE-ACTION); REMEMBER and CANT are defined in run.lisp, TRY and
+;;;; KEEP in plan/try.lisp.
 
 (in-package :supergrip-chainer)
 

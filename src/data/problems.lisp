@@ -1,4 +1,7 @@
-;;;; problems.lisp -- what is wrong with a file, said once, completely and in one place.
+;;;; problems.lisp -- what is wrong with a file is collected, and told all at once.
+;;;;
+;;;; The words stand where a mistake is found: of characters and parentheses in reader.lisp, of files that
+;;;; can't be opened in sbcl.lisp.
 
 (in-package :supergrip-data)
 
