@@ -462,3 +462,12 @@
                                                 marks (substitute #\Space #\Newline *json-pencil*)
                                                 marks (substitute #\Space #\Newline *json-pencil*))))))
         "~s" marks)))
+
+(test marks-without-end-cost-their-record-only
+  (let ((box (substitute #\Space #\Newline *json-pencil*)))
+    (dolist (mark (list (code-char #xfeff) (code-char 30)))
+      (is (equal "grasp"
+                 (first (last (statuses (answers (format nil "{\"size\": [1,~%~a~%~a~%"
+                                                         (make-string 200000 :initial-element mark)
+                                                         box))))))
+          "~s" mark))))

@@ -162,7 +162,7 @@ a comment or a line of a log does not matter; or NIL."
   "True if the line at the place of INPUT starts a record: with (( or (SETQ, in JSON with {.
 The second value is true if more characters are needed to tell."
   (let ((characters (input-characters input))
-        (place (after-mark input (input-place input)))
+        (place (after-marks input (input-place input)))
         (end (input-end input)))
     (flet ((begins (prefix)
              (let ((count (min (length prefix) (- end place))))
@@ -175,13 +175,14 @@ The second value is true if more characters are needed to tell."
         (values (and (member :yes answers) t)
                 (and (member :maybe answers) t))))))
 
-(defun after-mark (input place)
-  "Return PLACE, or the one after the marks and separators that stand there."
-  (loop while (and (< place (input-end input))
-                   (find (schar (input-characters input) place)
-                         (load-time-value (coerce (list +mark+ +separator+) 'simple-string))))
-        do (incf place))
-  place)
+(defun after-marks (input place)
+  "Return PLACE, or the one after the marks and separators that stand there.  Only so many are looked
+at, since the buffer could not hold any number of them."
+  (let ((end (min (input-end input) (+ place 1000))))
+    (or (position-if-not (lambda (character)
+                           (or (char= character +mark+) (char= character +separator+)))
+                         (input-characters input) :start place :end end)
+        end)))
 
 (defun record-starts-p (input)
   "True if the line at the place of INPUT starts a record; gets more characters if it must."
@@ -203,7 +204,7 @@ record (as long as the notation is not known, any may), or where the characters 
                         (or (null first)
                             (= (1+ place) end)
                             (char= (schar characters (1+ place)) first)
-                            (/= (1+ place) (after-mark input (1+ place)))))
+                            (/= (1+ place) (after-marks input (1+ place)))))
                (return (1+ place)))
           finally (return end))))
 
