@@ -84,14 +84,14 @@
             ("a parenthesis too many" (,pencil ")
 " ,pencil) "grasp" ,(format nil "line 1, column ~d: a closing parenthesis too many" (1+ (length pencil))) "grasp")
             ("something bad inside" ("((SIZE #(1 2 3)) (NAME \"(\") ; (
-) " ,pencil) "line 1, column 8: # can't stand in a name or a number" "grasp")
+) " ,pencil) "line 1, column 8: # is not allowed in a name or a number" "grasp")
             ("words" ("hello, world (( 1 2
-" ,pencil) "line 1, column 6: , can't stand in a name or a number"
+" ,pencil) "line 1, column 6: , is not allowed in a name or a number"
                        "line 1, column 15: this parenthesis is never closed before line 2, which starts another record" "grasp")
             ("one word" ("hello world
-" ,pencil) "line 1, column 1: HELLO is not a box description: it is a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)" "grasp")
+" ,pencil) "line 1, column 1: HELLO is not a box description: it is a list such as ((SIZE 12 2 2) (WEIGHT 0.2) ...)" "grasp")
             ("a quote without a form" ("((SIZE 12 2 2) '
-" ,pencil) "line 1, column 16: nothing stands after this ' before line 2, which starts another record"
+" ,pencil) "line 1, column 16: nothing follows this ' before line 2, which starts another record"
                                        "grasp")
             ("an open end" (,pencil "
 ((SIZE 12") "grasp" "line 2, column 2: this parenthesis is never closed"))
@@ -126,7 +126,7 @@
             ("words" ("hello {
 " ,pencil) "line 1, column 1: hello is not JSON" "line 1, column 7: this object is never closed before line 2" "grasp")
             ("numbers" ("1 2 3
-" ,pencil) "line 1, column 1: 1 is not a box description: it is an object as {\"size\"" "grasp")
+" ,pencil) "line 1, column 1: 1 is not a box description: it is an object such as {\"size\"" "grasp")
             ("values in an array" ("[1, [2, 3], null, " ,pencil ", \"x\"]")
              "line 1, column 2: 1 is not" "line 1, column 5: [2, 3] is not" "line 1, column 13: null is not"
              "grasp" "line 1, column")
@@ -158,9 +158,9 @@
           ("0.2," "true," "\"weight\": true is not valid")
           ("\"weight\"" "\"Weight\"" "unknown key \"Weight\" (did you mean weight?); keys are \"size\", \"weight\"")
           ("\"weight\"" "\"size\"" "\"size\" is given twice")
-          ("\"weight\": 0.2, " "" "\"weight\" is missing; it takes one number from 0, in finger forces: \"weight\": 0.2")
-          ("\"Z2\"" "\"Z3\"" "\"Z3\" is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
-          ("\"Z2\"" "7" "7 is no surface of a box")
+          ("\"weight\": 0.2, " "" "\"weight\" is missing; it takes one number, 0 or more, in finger forces: \"weight\": 0.2")
+          ("\"Z2\"" "\"Z3\"" "\"Z3\" is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
+          ("\"Z2\"" "7" "7 is not a surface of a box")
           ("\"Z2\"" "\"X1\"" "\"X1\" is constrained twice")
           ("[\"Z2\", \"X1\"]" "\"Z2\"" "\"constrained\": \"Z2\" is not valid")
           ("[1, 0.8, 0.8, 0.3, 1, 1]" "[1, 1.1]" "\"force_needed\": [1, 1.1] is not valid")
@@ -177,15 +177,15 @@
                       (subseq (getf problem :text) 0 (min 20 (length (getf problem :text)))))))
 
 (test every-mistake-in-a-box-has-its-place
-  (is (equal '((3 11 "(WEIGHT -1) is not v") (4 18 "Q is no surface of a")
-               (4 20 "X9 is no surface of ") (5 22 "(FORCE-NEEDED (1 1 2")
+  (is (equal '((3 11 "(WEIGHT -1) is not v") (4 18 "Q is not a surface o")
+               (4 20 "X9 is not a surface ") (5 22 "(FORCE-NEEDED (1 1 2")
                (2 3 "VELOCITY-NEEDED is m") (5 32 "the box ends here; i"))
              (problem-places (first (answers "(SETQ BOX
  '((SIZE 1 2 3) (u 1)
   (WEIGHT -1) (v 1)
  (CONSTRAINED Z2 Q X9)
   (FORCE-NEEDED (1 1 2 1 1 1))))")))))
-  (is (equal '((2 12 "\"weight\": -1 is not ") (3 24 "\"Q\" is no surface of") (3 29 "\"X9\" is no surface o")
+  (is (equal '((2 12 "\"weight\": -1 is not ") (3 24 "\"Q\" is not a surface") (3 29 "\"X9\" is not a surfac")
                (4 26 "\"force_needed\": [1, ") (1 2 "\"velocity_needed\" is") (4 37 "the box ends here; i"))
              (problem-places (first (answers "[{\"size\": [1, 2, 3], \"u\": 1,
  \"weight\": -1, \"v\": 1,
@@ -281,12 +281,12 @@
        "longer than 65536 characters")
       ("a duplicate key" ,(with "(u 0.8)" "(u 0.8) (U 0.8)") "U is given twice")
       ("an unknown key" ,(with "(u 0.8)" "(u 0.8) (colour 1)") "unknown key COLOUR")
-      ("full-width letters" ,(with "(u" "(ｕ") "ｕ can't stand in a name")
-      ("full-width digits" ,(with "12" "１２") "can't stand in a name")
+      ("full-width letters" ,(with "(u" "(ｕ") "ｕ is not allowed in a name")
+      ("full-width digits" ,(with "12" "１２") "is not allowed in a name")
       ("UTF-8 in a name" ,(with "(u" "(NAME \"käse 😀\") (u") :planned)
       ("CRLF" ,(format nil "~a~c~%" (with "0.8" "0.8") #\Return) :planned)
       ("no final newline" ,(with "0.8" "0.8") :planned)
-      ("NUL" ,(with "0.8" (format nil "0.8~c" (code-char 0))) "U+0000 (is this UTF-16?) can't stand")
+      ("NUL" ,(with "0.8" (format nil "0.8~c" (code-char 0))) "U+0000 (is this UTF-16?) is not allowed")
       ("NUL in a name" ,(with "(u" (format nil "(NAME \"a~cb\") (u" (code-char 0))) :planned)
       ("invalid UTF-8" (,(with "(u" "(NAME \"a") #(255 192 128 237 160 128) "\") (u 1)") :any)
       ("invalid UTF-8 in a name" ("((NAME \"a" #(255 192 128 237 160 128 240 159) "z\")"

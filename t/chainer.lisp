@@ -232,11 +232,11 @@ Returns what the rules said, a list of strings, and the stop."
           ("(RULE A (IF SLIPPERY) (THEN (REMEMBER P)))"
            "RULE A, clause 1: SLIPPERY is not a clause: a clause is a list")
           ("(RULE A (IF (SMALL (s1 s2))) (THEN (REMEMBER P (s3))))"
-           "RULE A, action 1: the variable S3 stands in no clause of the antecedent")
+           "RULE A, action 1: the variable S3 occurs in no clause of IF")
           ("(RULE A (IF (SMALL (s1))) (THEN (REMEMBER P)))"
-           "RULE A, clause 1: SMALL takes 2 surfaces, here it has 1")
+           "RULE A, clause 1: SMALL takes 2 surfaces; here it has 1")
           ("(RULE A (IF (SMALL)) (THEN (REMEMBER P)))"
-           "RULE A, clause 1: SMALL takes 2 surfaces, here it has none")
+           "RULE A, clause 1: SMALL takes 2 surfaces; here it has none")
           ("(RULE A (IF (SMALL (s1 s1))) (THEN (REMEMBER P)))"
            "RULE A, clause 1: the same surface twice in (S1 S1): lists of surfaces hold distinct ones")
           ("(RULE A (IF (CONSTRAINED (Z3))) (THEN (REMEMBER P)))"
@@ -250,12 +250,12 @@ Returns what the rules said, a list of strings, and the stop."
           ("(RULE A (IF (SLIPPERY)) (THEN (REMEMBER OBJECT HAS NO P)))"
            "RULE A, action 1: a negation can't be remembered: what is not remembered is false")
           ("(RULE A (IF (SLIPPERY)) (THEN (REMEBMER P)))"
-           "RULE A, action 1: REMEBMER is no action; actions are REMEMBER, CANT")
+           "RULE A, action 1: REMEBMER is not an action; actions are REMEMBER, CANT")
           ("(RULE A (IF (SLIPPERY)) (THEN (CANT)))"
-           "RULE A, action 1: CANT is followed by words that say why")
+           "RULE A, action 1: CANT needs words after it that say why")
           ("(RULE A (IF (SLIPPERY)) (THEN (REMEMBER P)))
             (RULE A (IF (SLIPPERY)) (THEN (REMEMBER P)))"
-           "RULE A: there is a rule of this name before it"))
+           "RULE A: an earlier rule has this name"))
         do (let ((reports (nth-value 1 (build text))))
              (is (= 1 (length reports)))
              (is (search (subseq report 0 (min (length report) 80)) (or (first reports) ""))

@@ -245,8 +245,8 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
   (with-folder (folder)
     (let ((plan (supergrip:plan (sized-box 12 2 2))))
       (loop for (text file) in
-            `(("7 is no name of a file: it is a string, or a path without wild cards" 7)
-              ("() is no name of a file: it is a string, or a path without wild cards" ())
+            `(("7 is not the name of a file: that is a string, or a path without wild cards" 7)
+              ("() is not the name of a file: that is a string, or a path without wild cards" ())
               (,(format nil "~s is a directory; a file is wanted" (namestring folder))
                ,(namestring folder)))
             do (dolist (draw (list #'supergrip-draw:draw-system #'supergrip-draw:draw-grasps

@@ -59,8 +59,8 @@
     (let ((report (handler-case
                       (supergrip:edit '(rule grip9 (if (parallel (s1))) (then (frob))))
                     (supergrip:knowledge-error (condition) (princ-to-string condition)))))
-      (is (equal '("RULE GRIP9, clause 1: PARALLEL takes 2 surfaces, here it has 1"
-                   "RULE GRIP9, action 1: FROB is no action; actions are REMEMBER, CANT, TRY, KEEP"
+      (is (equal '("RULE GRIP9, clause 1: PARALLEL takes 2 surfaces; here it has 1"
+                   "RULE GRIP9, action 1: FROB is not an action; actions are REMEMBER, CANT, TRY, KEEP"
                    "The knowledge in force stays as it was.")
                  (remove-if (lambda (line) (search "warning" line))
                             (lines-of report)))))
@@ -109,7 +109,7 @@
         '(("(setq box '(...))" "(setq box ((SIZE 12 2 2) (WEIGHT 0.2)))")
           ("(setq lateral '(...))" "(setq lateral (USED-SURFACES (N1 N2)))")
           ("(setq gripper '(...))" "(setq gripper (FINGER-LENGTH 3))"))
-        do (is (equal (format nil "the quote is missing: it is ~a" text)
+        do (is (equal (format nil "the quote is missing: write ~a" text)
                       (error-text (eval-in-user form))))))
 
 (defun eval-in-user (text)
@@ -146,11 +146,11 @@ printed."
 
 (test comparing-takes-knowledge-and-boxes
   (let ((knowledge supergrip:*knowledge*))
-    (is (equal "3 is no knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force"
+    (is (equal "3 is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force"
                (error-text (supergrip:compare-knowledge knowledge 3 (list (paper-box))))))
-    (is (equal "(A . B) is no list of boxes"
+    (is (equal "(A . B) is not a list of boxes"
                (error-text (supergrip:compare-knowledge knowledge knowledge '(a . b)))))
-    (is (search "is no list of boxes"
+    (is (search "is not a list of boxes"
                 (error-text (let ((boxes (list (paper-box))))
                               (setf (cdr boxes) boxes)
                               (supergrip:compare-knowledge knowledge knowledge boxes)))))))

@@ -30,15 +30,15 @@
 
 (test other-mistakes-in-a-box-are-named
   (loop for (form report) in
-        `((12 "BOX: 12 is not a box description: it is a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)")
-          (((size 12 2 2)) "BOX: WEIGHT is missing; it takes one number from 0, in finger forces: (WEIGHT 0.2)")
+        `((12 "BOX: 12 is not a box description: it is a list such as ((SIZE 12 2 2) (WEIGHT 0.2) ...)")
+          (((size 12 2 2)) "BOX: WEIGHT is missing; it takes one number, 0 or more, in finger forces: (WEIGHT 0.2)")
           (,(cons '(:size 1 1 1) *good-box*) "BOX: SIZE is given twice")
           (,(cons '(:frction 1) *good-box*) "BOX: unknown key FRCTION")
           (,(cons '(:wieght 1) *good-box*) "BOX: unknown key WIEGHT (did you mean WEIGHT?)")
-          (,(cons :size *good-box*) "BOX: SIZE is not a part of a box description: its parts are lists as (SIZE 12 2 2)")
-          (,(changed-box :constrained :z3) "BOX: Z3 is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
-          (,(changed-box :constrained '(:z2)) "BOX: (Z2) is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
-          (,(changed-box :constrained :z2 :q :x9) "BOX: Q is no surface of a box")
+          (,(cons :size *good-box*) "BOX: SIZE is not a part of a box description: its parts are lists such as (SIZE 12 2 2)")
+          (,(changed-box :constrained :z3) "BOX: Z3 is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
+          (,(changed-box :constrained '(:z2)) "BOX: (Z2) is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
+          (,(changed-box :constrained :z2 :q :x9) "BOX: Q is not a surface of a box")
           (,(changed-box :constrained :z2 :z2) "BOX: Z2 is constrained twice")
           (,(remove :constrained *good-box* :key #'first) "BOX: CONSTRAINED is missing")
           (,(cons '(:name pencil) *good-box*) "BOX: (NAME PENCIL) is not valid: NAME takes one string: (NAME \"pencil\")")
@@ -54,7 +54,7 @@
             (supergrip:parse-box (apply #'changed-box :constrained faces)))))
     (is (equal '("Z2" "X1") (constrained "Z2" "x1")))
     (is (equal '("Z2" "X1") (apply #'constrained (constrained 'z2 '|x1|)))))
-  (is (search "\"Z3\" is no surface" (first (box-reports (changed-box :constrained "Z3"))))))
+  (is (search "\"Z3\" is not a surface" (first (box-reports (changed-box :constrained "Z3"))))))
 
 (test all-mistakes-in-a-box-come-at-once
   (is (= 3 (length (box-reports (changed-box :constrained :z2 :q :x9 :z2)))))
@@ -187,7 +187,7 @@
     (is (equal "rules.lisp:3: RULE R, action 1: TRY names GG, which is not in the database"
                (reports "(TRY GG)")))
     (is (search "action 1: a suggested matching is one list of six" (reports "(TRY G (s1 s2))")))
-    (is (search "the variable S3 stands in no clause" (reports "(TRY G (s1 s2 s3 ? ? ?))")))
+    (is (search "the variable S3 occurs in no clause" (reports "(TRY G (s1 s2 s3 ? ? ?))")))
     (is (search "KEEP is (KEEP BEST)" (reports "(KEEP WORST)")))))
 
 (defmacro without-warnings (&body body)

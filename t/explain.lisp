@@ -33,14 +33,14 @@
 
 (test how-tells-why-a-fact-is-not-known
   (is (equal '("(WIDE (Y2 Y1)) is not known."
-               "RULE SURFACES4 did not fire: clause 2, (LARGE (S1 S2)), fails for all bindings before it."
+               "RULE SURFACES4 did not fire: clause 2, (LARGE (S1 S2)), fails for every binding of the clauses before it."
                "  Tried: S1 = Y2, S2 = Y1; S1 = Y1, S2 = Y2"
-               "  LARGE is an input, and the box does not give it for these.")
+               "  LARGE is an input, and the box does not give it for these faces.")
              (printed (supergrip:how '(wide (y2 y1)) (pencil-plan)))))
   (is (equal '("(PARALLEL (Z2 Z1)) is not known."
-               "RULE SURFACES1 did fire, but not for this: clause 3, (NOT CONSTRAINED (S2)), fails for all bindings before it."
+               "RULE SURFACES1 did fire, but not for this: clause 3, (NOT CONSTRAINED (S2)), fails for every binding of the clauses before it."
                "  Tried: S1 = Z1, S2 = Z2"
-               "  In its way stands"
+               "  This stands in its way:"
                "    (CONSTRAINED (Z2)): input, the box says so")
              (printed (supergrip:why-not '(parallel (z2 z1)) (pencil-plan)))))
   (is (equal '("(SLIPPERY) is not known." "It is an input, which this box does not give.")
@@ -48,11 +48,11 @@
 
 (test questions-about-nothing-are-refused
   (loop for (form report) in
-        '(((paralel (y2 y1)) "(PARALEL (Y2 Y1)) is no fact that could be known: nothing speaks of PARALEL (did you mean PARALLEL?); known are OPPOSED, SMALL, NARROW, LARGE, CONSTRAINED, SLIPPERY, PARALLEL, OBJECT HAS PARALLEL SURFACES, ADJACENT, OBJECT HAS ADJACENT SURFACES, CORNER, OBJECT HAS FREE CORNERS, WIDE")
-          ((not parallel (y2 y1)) "(NOT PARALLEL (Y2 Y1)) is no fact that could be known: ask about the sentence without NOT or NO")
-          (parallel "PARALLEL is no fact that could be known: a fact is a list, as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)")
-          ((parallel (y2)) "(PARALLEL (Y2)) is no fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2")
-          ((parallel (y2 y3)) "(PARALLEL (Y2 Y3)) is no fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2"))
+        '(((paralel (y2 y1)) "(PARALEL (Y2 Y1)) is not a fact that could be known: nothing speaks of PARALEL (did you mean PARALLEL?); known are OPPOSED, SMALL, NARROW, LARGE, CONSTRAINED, SLIPPERY, PARALLEL, OBJECT HAS PARALLEL SURFACES, ADJACENT, OBJECT HAS ADJACENT SURFACES, CORNER, OBJECT HAS FREE CORNERS, WIDE")
+          ((not parallel (y2 y1)) "(NOT PARALLEL (Y2 Y1)) is not a fact that could be known: ask about the sentence without NOT or NO")
+          (parallel "PARALLEL is not a fact that could be known: a fact is a list, such as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)")
+          ((parallel (y2)) "(PARALLEL (Y2)) is not a fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2")
+          ((parallel (y2 y3)) "(PARALLEL (Y2 Y3)) is not a fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2"))
         do (is (equal report (handler-case (supergrip:how form (pencil-plan))
                                (supergrip:no-fact-error (condition) (princ-to-string condition))))))
   (is (search "there is no rule or grasp GRIP12 (did you mean GRIP1"
@@ -67,14 +67,14 @@
 
 (test why-not-names-the-clause-and-what-blocks-a-negation
   (is (equal '("RULE GRIP4 did not fire: clause 1, (OBJECT HAS NO PARALLEL SURFACES), fails."
-               "  In its way stands"
+               "  This stands in its way:"
                "    (OBJECT HAS PARALLEL SURFACES): RULE SURFACES1 with S1 = Y2, S2 = Y1"
                "      (OPPOSED (Y2 Y1)): input, opposite faces of the box"
                "      not (CONSTRAINED (Y2)): assumed, nothing had said so when SURFACES1 was tried"
                "      not (CONSTRAINED (Y1)): assumed, nothing had said so when SURFACES1 was tried")
              (printed (supergrip:why-not 'grip4 nil (pencil-plan)))))
   (is (equal '("RULE GRIP10 did not fire: clause 1, (WIDE (S1 S2)), fails."
-               "  No rule before said WIDE.")
+               "  No rule before it said WIDE.")
              (printed (supergrip:why-not 'grip10 nil (pencil-plan)))))
   (is (equal '("RULE GRIP9 did fire, with S1 = Y2, S2 = Y1; S1 = Y1, S2 = Y2.")
              (printed (supergrip:why-not 'grip9 nil (pencil-plan))))))
@@ -95,11 +95,11 @@
     (loop for (plan grasp matching line) in
           `((,pencil pinch-2-parallel nil "PINCH-2-PARALLEL: no rule tried it.")
             (,pencil pinch-3-parallel (z1 z2 x1 x2 y1 y2)
-             "PINCH-3-PARALLEL (Z1 Z2 X1 X2 Y1 Y2): it would use Z2, constrained.")
+             "PINCH-3-PARALLEL (Z1 Z2 X1 X2 Y1 Y2): it would use Z2, which is constrained.")
             (,pencil pinch-3-parallel (y1 y2 x1 x2 z2 z1)
              "PINCH-3-PARALLEL (Y1 Y2 X1 X2 Z2 Z1): the same grasp was tried as (Y2 Y1 X2 X1 Z2 Z1).")
             (,pencil pinch-3-parallel (y1 y2 x2 x1 z2 z1)
-             "PINCH-3-PARALLEL: (Y1 Y2 X2 X1 Z2 Z1) is no matching: N O A must be a proper rotation of X Y Z, N1 opposite N2, and so on.")
+             "PINCH-3-PARALLEL: (Y1 Y2 X2 X1 Z2 Z1) is not a matching: N O A must be a proper rotation of X Y Z, N1 opposite N2, and so on.")
             (,pencil pinch-3-u-shape nil
              "PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1): its Q is 0.770, 0.08965 below PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1).")
             (,pencil pinch-3-parallel nil
@@ -117,9 +117,9 @@
 
 (test why-not-tells-what-would-have-come-of-it
   (let ((lines (printed (supergrip:why-not 'pinch-2-parallel nil (pencil-plan)))))
-    (is (equal "If tried it would be possible, with Q=0.325 in (Y2 Y1 X2 X1 Z2 Z1)."
+    (is (equal "If tried, it would be possible, with Q=0.325 in (Y2 Y1 X2 X1 Z2 Z1)."
                (first (last lines))))
-    (is (equal "RULE GRIP7 did not fire: clause 2, (NARROW (S3 S4)), fails for all bindings before it."
+    (is (equal "RULE GRIP7 did not fire: clause 2, (NARROW (S3 S4)), fails for every binding of the clauses before it."
                (second lines)))))
 
 ;;; EXPLAIN-BEST, descriptions
@@ -129,8 +129,8 @@
                "Force is limited about Y: the grasp exerts 1.095 beyond the weight's load, the task needs 1; radius 1.095."
                "Velocity is limited about Y: the grasp moves with 0.5, the task needs 0.8; radius 0.625."
                "The grasp gives only 0.625 of the velocity asked for, which is enough if the needs only say what matters more."
-               "Q, 0.860, compares grasps for one task: it is no chance of success."
-               "Next is PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1), with Q 0.08965 less."
+               "Q, 0.860, only compares grasps for one task; it is not a probability of success."
+               "Next is PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1), with a Q lower by 0.08965."
                "The choice would change if one of these were different:"
                "  the torsional friction v: 0.11, not 0.2; then PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1)"
                "  the force needed along Y: 0.699, not 0.8; then PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1)"
@@ -409,13 +409,13 @@
                         :before 'grip1)
         (supergrip:edit '(rule grip11 (if (object has parallel surfaces))
                           (then (keep best) (remember late)))))
-      (is (find "RULE GRIP0 did not fire: clause 2, (SMALL (S2 S3)), fails for all bindings before it."
+      (is (find "RULE GRIP0 did not fire: clause 2, (SMALL (S2 S3)), fails for every binding of the clauses before it."
                 (answer '(w (y1))) :test #'string=)
           "the second action might have said so")
       (is (equal '("(LATE) is not known." "RULE GRIP11 did fire, and ended the run before, KEEP BEST.")
                  (answer '(late)))))
     (is (equal '("(PARALLEL (X1 X2)) is not known."
-                 "RULE SURFACES1 did fire, but not for this: clause 3, (NOT CONSTRAINED (S2)), fails for all bindings before it.")
+                 "RULE SURFACES1 did fire, but not for this: clause 3, (NOT CONSTRAINED (S2)), fails for every binding of the clauses before it.")
                (subseq (answer '(parallel (x1 x2))) 0 2)))
     (is (equal '("(PARALLEL (Y2 Y1)) is not known."
                  "RULE SURFACES1 did not run: PINCH-3-PARALLEL was tried alone.")
@@ -439,7 +439,7 @@
   (with-knowledge-restored
     (supergrip:rule mine (if (corner (s1 s2 s3))) (then (try pinch-3-corner (s1 s2 s3 ? ? ?))))
     (let ((lines (printed (supergrip:why-not 'pinch-3-corner nil (pencil-plan)))))
-      (is (equal "PINCH-3-CORNER: what the rules suggest is no matching, or would use a constrained face."
+      (is (equal "PINCH-3-CORNER: what the rules suggest is not a matching, or would use a constrained face."
                  (first lines)))
       (is (find-if (lambda (line) (search "RULE MINE did fire" line)) lines)))))
 
@@ -450,7 +450,7 @@
   (is (equal "GRIP9 is a rule: see DESCRIBE-RULE"
              (handler-case (supergrip:describe-grasp 'grip9)
                (supergrip:no-rule-error (condition) (princ-to-string condition)))))
-  (is (search "surfaces stand in a list of their own: (PARALLEL (Y2 Y1))"
+  (is (search "surfaces go in a list of their own: (PARALLEL (Y2 Y1))"
               (handler-case (supergrip:how '(parallel y2 y1) (pencil-plan))
                 (supergrip:no-fact-error (condition) (princ-to-string condition))))))
 

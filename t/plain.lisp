@@ -93,17 +93,17 @@
   (let ((plan (pencil-plan)) (circle (list 'x1)))
     (setf (cdr circle) circle)
     (loop for (text report)
-            in `(("3 is no name: rules and grasps are named by symbols or strings"
+            in `(("3 is not a name: rules and grasps are named by symbols or strings"
                   ,(error-text (supergrip:why-not 3 nil plan)))
                  ("GRIP9 is a rule: only a grasp has a matching"
                   ,(error-text (supergrip:why-not 'grip9 '(x1 x2 y1 y2 z1 z2) plan)))
-                 ("(A . B) is no fact that could be known: dotted pairs are not read: (A . B); a fact is a list, as (PARALLEL (Y2 Y1))"
+                 ("(A . B) is not a fact that could be known: dotted pairs are not read: (A . B); a fact is a list, such as (PARALLEL (Y2 Y1))"
                   ,(error-text (supergrip:why-not '(a . b) nil plan)))
-                 ("(OPPOSED (Y2 Y1) (X2 X1)) is no fact that could be known: ask about one list of surfaces at a time"
+                 ("(OPPOSED (Y2 Y1) (X2 X1)) is not a fact that could be known: ask about one list of surfaces at a time"
                   ,(error-text (supergrip:how '(opposed (y2 y1) (x2 x1)) plan)))
                  ("there is no grasp 3; grasps are PINCH-2-PARALLEL, PINCH-3-PARALLEL, PINCH-3-U-SHAPE, PINCH-3-C-SHAPE, PINCH-2-ADJACENT, PINCH-3-ADJACENT, PINCH-3-CORNER"
                   ,(error-text (supergrip:try-grasp 3 (paper-box))))
-                 ("3 is no plan: FORWARD-CHAIN, PLAN and TRY-GRASP return plans"
+                 ("3 is not a plan: FORWARD-CHAIN, PLAN and TRY-GRASP return plans"
                   ,(error-text (supergrip:explain-best 3))))
           do (is (equal text report)))
     (is (search "a circular one" (error-text (supergrip:how circle plan))))

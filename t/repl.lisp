@@ -79,13 +79,13 @@
       (is (equal '() (printed (best (paper-box) :trace nil))))
       (is (equal (printed (best (paper-box))) (printed (best (paper-box) :stream t)))))
     (loop for (text . arguments) in
-          `(("T is no level of trace: it is 0, nothing, to 4, everything" :trace t)
-            ("-1 is no level of trace: it is 0, nothing, to 4, everything" :trace -1)
-            ("RULES is no knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force"
+          `(("T is not a trace level: levels go from 0 (nothing) to 4 (everything)" :trace t)
+            ("-1 is not a trace level: levels go from 0 (nothing) to 4 (everything)" :trace -1)
+            ("RULES is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force"
              :knowledge rules)
-            ("there is no box yet: set one as (setq box '((SIZE 12 2 2) (WEIGHT 0.2) ...))"
+            ("there is no box yet: set one with (setq box '((SIZE 12 2 2) (WEIGHT 0.2) ...))"
              :box nil)
-            ("BOX: 3 is not a box description: it is a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)"
+            ("BOX: 3 is not a box description: it is a list such as ((SIZE 12 2 2) (WEIGHT 0.2) ...)"
              3))
           do (is (equal text (error-text (apply #'supergrip:forward-chain
                                                 (append arguments
@@ -97,20 +97,20 @@
   (let ((supergrip::*breaks* '()) (supergrip::*traced* '())
         (plan (supergrip::plan (paper-box))))
     (loop for (text function . arguments) in
-          `(("RULES is no key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :STREAM, :TRACE, :STEP"
+          `(("RULES is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :STREAM, :TRACE, :STEP"
              supergrip:forward-chain :box ,(paper-box) rules 3)
-            ("GRASPS is no stream that can be printed to"
+            ("GRASPS is not a stream that can be printed to"
              supergrip:forward-chain ,(paper-box) :stream grasps)
-            ("3 is no stream that can be printed to" supergrip:write-transcript ,plan 3)
-            ("3 is no name of a file: it is a string, or a path without wild cards"
+            ("3 is not a stream that can be printed to" supergrip:write-transcript ,plan 3)
+            ("3 is not the name of a file: that is a string, or a path without wild cards"
              supergrip:load-knowledge :rules 3)
-            ("() is no name of a file: it is a string, or a path without wild cards"
+            ("() is not the name of a file: that is a string, or a path without wild cards"
              supergrip:load-knowledge :grasps ())
-            ("3 is no break: it is a name or a fact, as (PARALLEL (Y2 Y1))" supergrip:unbreak 3)
-            ("COLOUR is no key of a box: keys are SIZE, WEIGHT, U, V, CONSTRAINED, FORCE-NEEDED, VELOCITY-NEEDED, NAME"
+            ("3 is not a break: a break is a rule's name or a fact, such as (PARALLEL (Y2 Y1))" supergrip:unbreak 3)
+            ("COLOUR is not a key of a box: keys are SIZE, WEIGHT, U, V, CONSTRAINED, FORCE-NEEDED, VELOCITY-NEEDED, NAME"
              supergrip:box-value ,(supergrip:plan-box plan) :colour))
           do (is (equal text (error-text (apply function arguments)))))
-    (is (search "is no name of a file" (error-text (supergrip:reload-knowledge :rules #p"*.lisp"))))
+    (is (search "is not the name of a file" (error-text (supergrip:reload-knowledge :rules #p"*.lisp"))))
     (is (equal "" (with-output-to-string (*standard-output*)
                     (supergrip:write-transcript plan nil))))))
 
@@ -151,14 +151,14 @@
       (is (equal "(CORNER (Z1 Y1 X2)) is not known." (first (first at-corner))))
       (is (eql 0 (search "(CORNER (Z1 Y1 X2)): RULE SURFACES3" (first (first at-grip4)))))
       (is (eql 0 (search "RULE SURFACES3 did fire" (first (second at-corner)))))
-      (is (equal "RULE GRIP4 has not run yet: the run stands in RULE SURFACES3."
+      (is (equal "RULE GRIP4 has not run yet: the run is now in RULE SURFACES3."
                  (first (third at-corner))))
-      (is (equal "RULE GRIP4 has not run yet: the run stands before RULE GRIP4."
+      (is (equal "RULE GRIP4 has not run yet: the run is now before RULE GRIP4."
                  (first (third at-grip4))))
       (is (equal '("SURFACES3" 1) (fourth at-corner)))
       (is (equal '("SURFACES4" 0) (fourth at-grip4)))
       (is (equal "#<PLAN THE RUN IS NOT OVER>" (fifth at-grip4)))
-      (is (equal "the run is not over, so nothing is the best yet" (sixth at-grip4))))
+      (is (equal "the run is not over, so there is no best grasp yet" (sixth at-grip4))))
     (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp)) "then it is the plan")
     (is (equal '("RULE GRIP4 did not fire: clause 1, (OBJECT HAS NO PARALLEL SURFACES), fails.")
                (subseq (printed (supergrip:why-not 'grip4)) 0 1)))))

@@ -46,14 +46,14 @@
     (:RULES "(RULE END" "(RULE"
      "rules.lisp:14: RULE without a name: a rule is (RULE name (IF clause...) (THEN action...))")
     (:RULES "(RULE END" "hello (RULE END"
-     "rules.lisp:14: HELLO is no rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
+     "rules.lisp:14: HELLO is not a rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
     (:RULES "(RULE END" "
 12 (RULE END"
-     "rules.lisp:15: 12 is no rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
+     "rules.lisp:15: 12 is not a rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
     (:GRASPS "(DEFUN HALF" "() (DEFUN HALF"
      "grasps.lisp:4: a grasp file holds (SETQ GRIPPER '(...)), (DEFUN name (parameter...) form) and (SETQ grasp '(...)), not ()")
     (:RULES "(RULE END" "(RULES END"
-     "rules.lisp:14: (RULES END (IF (OBJECT HAS PARALLEL SURFACES)) (THEN (KEEP BEST))) is no rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
+     "rules.lisp:14: (RULES END (IF (OBJECT HAS PARALLEL SURFACES)) (THEN (KEEP BEST))) is not a rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(WHEN (PARALLEL (s1 s2)))"
      "rules.lisp:11: RULE ACROSS: a rule is (RULE name (IF clause...) (THEN action...))")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF)"
@@ -63,19 +63,19 @@
     (:RULES "(THEN (KEEP BEST))" ""
      "rules.lisp:14: RULE END: a rule is (RULE name (IF clause...) (THEN action...))")
     (:RULES "(RULE END" "(RULE FIND"
-     "rules.lisp:14: RULE FIND: there is a rule of this name before it")
+     "rules.lisp:14: RULE FIND: an earlier rule has this name")
     (:RULES "(THEN (KEEP BEST)))" "(THEN (KEEP BEST))"
      "rules.lisp:14:1: this parenthesis is never closed")
     (:RULES "(THEN (KEEP BEST)))" "(THEN (KEEP BEST))))"
      "rules.lisp:16:22: a closing parenthesis too many")
     (:RULES "(RULE END" "#.(RULE END"
-     "rules.lisp:14:1: # can't stand in a name or a number")
+     "rules.lisp:14:1: # is not allowed in a name or a number")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF PARALLEL)"
      "rules.lisp:11: RULE ACROSS, clause 1: PARALLEL is not a clause: a clause is a list")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1)))"
-     "rules.lisp:12: RULE ACROSS, clause 1: PARALLEL takes 2 surfaces, here it has 1")
+     "rules.lisp:12: RULE ACROSS, clause 1: PARALLEL takes 2 surfaces; here it has 1")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL))"
-     "rules.lisp:12: RULE ACROSS, clause 1: PARALLEL takes 2 surfaces, here it has none")
+     "rules.lisp:12: RULE ACROSS, clause 1: PARALLEL takes 2 surfaces; here it has none")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1 s1)))"
      "rules.lisp:12: RULE ACROSS, clause 1: the same surface twice in (S1 S1): lists of surfaces hold distinct ones")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1 W2)))"
@@ -97,21 +97,21 @@
      "rules.lisp:12: RULE ACROSS, clause 2: more than six variables: a box has six surfaces"
      "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides CORNER, so the rule can never fire")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRIES G (s1 s2 ? ? ? ?))"
-     "rules.lisp:13: RULE ACROSS, action 1: TRIES is no action; actions are REMEMBER, CANT, TRY, KEEP")
+     "rules.lisp:13: RULE ACROSS, action 1: TRIES is not an action; actions are REMEMBER, CANT, TRY, KEEP")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY H (s1 s2 ? ? ? ?))"
      "rules.lisp:13: RULE ACROSS, action 1: TRY names H, which is not in the database")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY)"
-     "rules.lisp:13: RULE ACROSS, action 1: TRY names a grasp, as (TRY PINCH-3-PARALLEL)")
+     "rules.lisp:13: RULE ACROSS, action 1: TRY names a grasp, such as (TRY PINCH-3-PARALLEL)")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (s1 s2))"
      "rules.lisp:13: RULE ACROSS, action 1: a suggested matching is one list of six, for N1 N2 O1 O2 A1 A2, with ? for any: (? s3 s1 s2 ? s4)")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (s1 s3 ? ? ? ?))"
-     "rules.lisp:13: RULE ACROSS, action 1: the variable S3 stands in no clause of the antecedent")
+     "rules.lisp:13: RULE ACROSS, action 1: the variable S3 occurs in no clause of IF")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (s1 s1 ? ? ? ?))"
      "rules.lisp:13: RULE ACROSS, action 1: the same surface twice in (S1 S1): lists of surfaces hold distinct ones")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "TRY"
      "rules.lisp:11: RULE ACROSS, action 1: TRY is not an action: an action is a list that begins with REMEMBER, CANT, TRY, KEEP")
     (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER PARALLEL (s1 s5))"
-     "rules.lisp:9: RULE FIND, action 1: the variable S5 stands in no clause of the antecedent")
+     "rules.lisp:9: RULE FIND, action 1: the variable S5 occurs in no clause of IF")
     (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER NOT PARALLEL (s1 s2))"
      "rules.lisp:9: RULE FIND, action 1: a negation can't be remembered: what is not remembered is false")
     (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER)"
@@ -120,7 +120,7 @@
     (:RULES "(KEEP BEST)" "(KEEP ALL)"
      "rules.lisp:16: RULE END, action 1: KEEP is (KEEP BEST)")
     (:RULES "(CANT GRASP IT)" "(CANT)"
-     "rules.lisp:4: RULE OBVIOUS, action 1: CANT is followed by words that say why")
+     "rules.lisp:4: RULE OBVIOUS, action 1: CANT needs words after it that say why")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALEL (s1 s2)))"
      "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides PARALEL (did you mean PARALLEL?), so the rule can never fire")
     (:RULES "(IF (OBJECT HAS PARALLEL SURFACES))" "(IF (OBJECT HAS NO PARALEL SURFACES))"
@@ -141,7 +141,7 @@
      "grasps.lisp:6: warning: GRASP G: no rule tries it")
     (:GRASPS "(SETQ GRIPPER" "(SETQ GRIPER"
      "grasps.lisp: GRIPPER: there is no (SETQ GRIPPER '(...))"
-     "grasps.lisp:1: GRIPER is no grasp (did you mean GRIPPER?): its list has none of the keys USED-SURFACES, CONDITIONS, OFFSET, WRENCH, TWIST, CONTACTS, PALM")
+     "grasps.lisp:1: GRIPER is not a grasp (did you mean GRIPPER?): its list has none of the keys USED-SURFACES, CONDITIONS, OFFSET, WRENCH, TWIST, CONTACTS, PALM")
     (:GRASPS "FINGER-LENGTH 3" "FINGER-LENGTH"
      "grasps.lisp:1: GRIPPER: FINGER-LENGTH has no number after it")
     (:GRASPS "FINGER-LENGTH 3" ""
@@ -159,7 +159,7 @@
     (:GRASPS "FINGER-SPREAD 2" "FINGER-SPREAD 13"
      "grasps.lisp:1: GRIPPER: FINGER-SPREAD is 13, more than DIST-PINCH, 12")
     (:RULES "(PARALLEL (s1 s2))" "(PARALLEL s1 s2)"
-     "rules.lisp:12: RULE ACROSS, clause 1: surfaces stand in a list of their own, at the end: (PARALLEL (S1 S2))")
+     "rules.lisp:12: RULE ACROSS, clause 1: surfaces go in a list of their own, at the end: (PARALLEL (S1 S2))")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY G (X1 Y1 ? ? ? ?))"
      "rules.lisp:13: warning: RULE ACROSS, action 1: no matching has these faces in these places: N O A is a proper rotation of X Y Z")
     (:GRASPS "(DEFUN HALF (x)" "(SETQ GRIPPER '(FINGER-LENGTH 3)) (DEFUN HALF (x)"
@@ -198,7 +198,7 @@
     (:GRASPS "((N1 0 0) (N2 0 0))" "((N1 0 0) (O2 0 0))"
      "grasps.lisp:15: GRASP G, CONTACTS: a finger is on O2, which is not one of USED-SURFACES")
     (:GRASPS "((N1 0 0) (N2 0 0))" "((N1 0) (N2 0 0))"
-     "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: a face, and its place on it along the two other axes, as (N1 0 0)")
+     "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: a face, and its place on it along the two other axes, such as (N1 0 0)")
     (:GRASPS "((N1 0 0) (N2 0 0))" "()"
      "grasps.lisp:6: GRASP G, CONTACTS: CONTACTS lists no contact")
     (:GRASPS "(LIST 0 0 0 0 0 0)" "(LIST 0 0 0 0 0)"
@@ -222,9 +222,9 @@
     (:GRASPS "(* 2 v)" "(IF (> v 0) 1)"
      "grasps.lisp:11: GRASP G, WRENCH: IF is (IF test then else)")
     (:GRASPS "(* 2 v)" "(LET* ((x)) 1)"
-     "grasps.lisp:11: GRASP G, WRENCH: (X) is not a binding, as (r (/ (DIST '(N1 N2)) 2))")
+     "grasps.lisp:11: GRASP G, WRENCH: (X) is not a binding, such as (r (/ (DIST '(N1 N2)) 2))")
     (:GRASPS "(* 2 v)" "(DIST '(N1 A1))"
-     "grasps.lisp:11: GRASP G, WRENCH: (DIST '(N1 A1)): DIST takes two opposite faces, as (DIST '(N1 N2))")
+     "grasps.lisp:11: GRASP G, WRENCH: (DIST '(N1 A1)): DIST takes two opposite faces, such as (DIST '(N1 N2))")
     (:GRASPS "(* 2 v)" "(HALF)"
      "grasps.lisp:11: GRASP G, WRENCH: HALF takes 1 argument, here 0: (HALF)")
     (:GRASPS "(* 2 v)" "(EVAL (QUIT))"
@@ -291,11 +291,11 @@
                                                      "(SMALL (s1 s2))" "(SMALL (s1))")
                                        (replace-once *good-grasps* "PALM A2" "PALM A1"))))))
     (is (equal '("grasps.lisp:6: GRASP G, PALM: the palm faces A1, which is not one of USED-SURFACES"
-                 "rules.lisp:2: RULE OBVIOUS, clause 1: SMALL takes 2 surfaces, here it has 1"
+                 "rules.lisp:2: RULE OBVIOUS, clause 1: SMALL takes 2 surfaces; here it has 1"
                  "rules.lisp:16: RULE END, action 1: KEEP is (KEEP BEST)")
                reports)))
   (is (equal '("grasps.lisp:6: GRASP G, PALM: A9: PALM is one of N1 N2 O1 O2 A1 A2"
-               "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: a face, and its place on it along the two other axes, as (N1 0 0)")
+               "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: a face, and its place on it along the two other axes, such as (N1 0 0)")
              (mapcar #'princ-to-string
                      (nth-value 1 (text-knowledge
                                    *good-rules*

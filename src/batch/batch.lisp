@@ -1,7 +1,7 @@
 ;;;; batch.lisp -- boxes in, records out: one for each box or fragment, in the same order.
 ;;;;
-;;;; Nothing is kept from one record to the next, so the input may have any length.  A record that
-;;;; can't be read costs that record only.
+;;;; Nothing is kept from one record to the next, so the input may have any length.  A malformed
+;;;; record affects no other.
 
 (in-package :supergrip)
 
@@ -101,7 +101,7 @@ or if a signal came."
   (let ((problems (input-error-problems condition)))
     (when (and (input-cut input)
                (find-if (lambda (end) (search end (problem-text (first problems))))
-                        '("never closed" "nothing stands")))
+                        '("never closed" "nothing follows")))
       (setf (problem-text (first problems))
             (format nil "~a before line ~d, which starts another record"
                     (problem-text (first problems)) (source-line source))))
@@ -245,7 +245,7 @@ and whether they are ours."
     ((or error storage-condition) (condition)
       (values nil
               (list (make-problem :line line :column column
-                                  :text (format nil "internal error: ~a (a mistake of SUPER-GRIP; to report it, send this box)"
+                                  :text (format nil "internal error: ~a (a bug in SUPER-GRIP; to report it, send this box)"
                                                 condition)))
               t))))
 

@@ -2,8 +2,8 @@
 ;;;;
 ;;;; Octets are decoded as UTF-8; what is not UTF-8 becomes U+FFFD.  The reader gets them in
 ;;;; pieces that end where a line that starts a record begins: a record that is still open there
-;;;; has lost a parenthesis or a quote, and is told that the input ends, so that it takes no other
-;;;; record with it.
+;;;; has lost a parenthesis or a quote.  The reader is then told that the input ends, so that the
+;;;; mistake affects no other record.
 
 (in-package :supergrip)
 

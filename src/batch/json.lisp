@@ -159,7 +159,7 @@ WHAT names it for the reports."
           ((eql character #\u)
            (next source)
            (code-char (read-hex source)))
-          (t (fail source "in a string, \\ stands only before one of \" \\ / b f n r t u")))))
+          (t (fail source "in a string, \\ may only come before one of \" \\ / b f n r t u")))))
 
 (defun read-hex (source)
   "Read four hexadecimal digits."
@@ -214,7 +214,7 @@ A surrogate alone, which is no character, becomes U+FFFD, as bytes that are not 
           do (setf count (push-token source character count))
              (next source))
     (when (zerop count)
-      (fail source "~a can't stand here" (character-description (peek source))))
+      (fail source "~a is not allowed here" (character-description (peek source))))
     (let ((token (source-token source)))
       (cond ((json-number-p token count) (token-number source count line column))
             ((find-literal token count))

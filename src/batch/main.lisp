@@ -34,7 +34,7 @@ Exit status:
   65   a box, a rule or a grasp is not valid (its record says why)
   66   a file can't be opened or read
   69   --report, but the pictures can't be loaded, or were not there at the build: cl-who is missing
-  70   an internal error, a mistake of SUPER-GRIP
+  70   an internal error, a bug in SUPER-GRIP
   74   output, or a page of the report, was lost
   130  after SIGINT, 143 after SIGTERM
 Where several apply: 70, 74, 130 or 143, 66, 65.
@@ -335,7 +335,7 @@ report of what could not be drawn or written."
 
 (defparameter +internal-error+
   "supergrip: internal error: ~a
-This is a mistake of SUPER-GRIP.  To report it, send these lines, the command line, what --version
+This is a bug in SUPER-GRIP.  To report it, send these lines, the command line, what --version
 prints, and the boxes, rules and grasps it was given."
   "What is said of an error that should not be.")
 

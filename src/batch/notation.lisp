@@ -1,4 +1,4 @@
-;;;; notation.lisp -- a box description in JSON, turned into the paper's list.
+;;;; notation.lisp -- a box description in JSON becomes the paper's list; messages quote it as JSON.
 
 (in-package :supergrip)
 
@@ -46,7 +46,7 @@ an array and VALUE is none."
   (and (json-literal-p value) (string= (json-literal-text value) "null")))
 
 (defmethod description-text ((notation (eql :json)))
-  (values "an object as {\"size\": [12, 2, 2], \"weight\": 0.2, ...}" "}"))
+  (values "an object such as {\"size\": [12, 2, 2], \"weight\": 0.2, ...}" "}"))
 
 (defmethod spot-in-clause ((notation (eql :json)) clause row numbers)
   ;; Keys and values of an object take turns.

@@ -1,4 +1,4 @@
-;;;; record.lisp -- what is said of one box: a plist, written as one line of Lisp or of JSON.
+;;;; record.lisp -- the record of one box: a plist, written as one line of Lisp or of JSON.
 
 (in-package :supergrip)
 

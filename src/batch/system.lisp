@@ -1,7 +1,7 @@
 ;;;; system.lisp -- what the batch needs of SBCL and the system: descriptors, signals, the process.
 ;;;;
-;;;; Streams of the standard would do for none of it: they wait until a buffer is full, so a pipe
-;;;; that pauses would get no answer, and they hide why a write failed.
+;;;; Lisp's own streams do not serve: they wait until a buffer is full, so a pipe that pauses would get
+;;;; no answer; and they hide why a write failed.
 
 (in-package :supergrip)
 

@@ -1,8 +1,8 @@
-;;;; check.lisp -- what can't be meant in a rule base that is well formed.
+;;;; check.lisp -- warnings: what is well formed in a rule base, but almost certainly a mistake.
 ;;;;
-;;;; A misspelt predicate is no error in a chainer: under the closed-world assumption it is just
-;;;; never true.  So every sentence is followed from who derives it to who tests it.  This works on
-;;;; the forms, so that one rule's errors make no warnings in others.
+;;;; A misspelt predicate is not an error to a chainer: under the closed-world assumption it is just
+;;;; never true.  So every sentence is followed from the rules that derive it to those that test it.
+;;;; This works on the forms, so an error in one rule causes no warning in another.
 
 (in-package :supergrip-chainer)
 

@@ -112,7 +112,7 @@ PREDICATE have.  True if it was not there."
   (put-fact memory predicate face-list))
 
 (defmacro do-facts ((fact memory index) &body body)
-  "Run BODY with FACT each face-list list of the predicate INDEX, in the order in which they were
+  "Run BODY with FACT each face list of the predicate INDEX, in the order in which they were
 remembered.  BODY must remember nothing."
   (let ((start (gensym)) (place (gensym)))
     `(let ((,start (* +most-facts+ ,index)))

@@ -1,6 +1,6 @@
 ;;;; match.lisp -- an antecedent becomes a function that finds all its bindings.
 ;;;;
-;;;; How it works.  A binding is a face list of faces, variable j at place j, so matching
+;;;; How it works.  A binding is a face list, variable j at place j, so matching
 ;;;; allocates nothing.  An antecedent becomes a chain of closures.  Each is called with the memory
 ;;;; and the binding so far, and calls the next once for each way in which its part can be met; the
 ;;;; last one collects the binding.  Which variables are bound where is known when the rule is read.
@@ -17,10 +17,10 @@
 ;;;; filters, one integer each.  Only faces in all sets are tried, and where one is left in a walk
 ;;;; over pairs, there is nothing to walk.
 ;;;;
-;;;; Tests and filters bind nothing, so that they come before their turn changes neither which
-;;;; bindings are found nor their order.
+;;;; Tests and filters bind nothing.  So running them early changes neither which bindings are found
+;;;; nor their order.
 ;;;;
-;;;; Of bindings that do the same, one is enough: see symmetry.lisp.
+;;;; Where several bindings have the same effect, only one is followed: see symmetry.lisp.
 
 (in-package :supergrip-chainer)
 

@@ -1,6 +1,6 @@
 ;;;; observe.lisp -- a run that is watched: for traces, steps, counts and explanations.
 ;;;;
-;;;; RUN-RULES knows nothing of this, so plans pay nothing for it.
+;;;; RUN-RULES does not use this, so plans pay nothing for it.
 
 (in-package :supergrip-chainer)
 

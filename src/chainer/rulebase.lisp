@@ -1,8 +1,8 @@
 ;;;; rulebase.lisp -- all rules together: numbered, compiled, and put to sleep.
 ;;;;
-;;;; A rule that asks for a fact of some predicate can't fire before there is one.  So it waits for a
-;;;; predicate, of those that it asks for the one that the fewest rules do, and sleeps until the
-;;;; first fact of it is remembered (see WAKE-RULES).  Rules that sleep cost a run nothing.
+;;;; A rule that asks for a fact of some predicate can't fire before there is one.  So it waits for
+;;;; one of the predicates that it asks for, the one that the fewest rules ask for, and sleeps until
+;;;; the first fact of it is remembered (see WAKE-RULES).  Rules that sleep cost a run nothing.
 
 (in-package :supergrip-chainer)
 
@@ -22,7 +22,7 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
         (cond ((null rule))
               ((gethash (rule-name rule) names)
                (let ((*subject* (format nil "RULE ~a" (rule-name rule))))
-                 (complain form "there is a rule of this name before it")))
+                 (complain form "an earlier rule has this name")))
               (t (setf (gethash (rule-name rule) names) t)
                  (push rule rules)))))
     (setf (rulebase-rules *rulebase*) (coerce (reverse rules) 'simple-vector))

@@ -105,7 +105,7 @@ elements would be."
   "Return the number of the variable NAME; new ones are allowed if BIND is true."
   (or (position (symbol-name name) (rule-variables *rule*) :test #'string=)
       (cond ((not (or bind *clause-failed*)) ; it may stand in the clause that is wrong
-             (complain form "the variable ~a stands in no clause of the antecedent" name))
+             (complain form "the variable ~a occurs in no clause of IF" name))
             ((= (length (rule-variables *rule*)) 6)
              (complain form "more than six variables: a box has six surfaces"))
             (t
@@ -142,7 +142,7 @@ have yet are allowed if BIND is true.  Complains, and returns NIL and true, of a
                  (make-predicate :words words :arity arity :given given
                                  :index (hash-table-count (rulebase-table *rulebase*)))))
           ((/= arity (predicate-arity predicate))
-           (complain form "~a takes ~[no list of surfaces~;1 surface~:;~:*~d surfaces~], here ~
+           (complain form "~a takes ~[no list of surfaces~;1 surface~:;~:*~d surfaces~]; here ~
                            it has ~[none~:;~:*~d~]"
                      (predicate-text predicate) (predicate-arity predicate) arity))
           (t predicate))))
@@ -167,7 +167,7 @@ the last perhaps a list of surfaces.  Returns NIL after a complaint."
     (cond ((null names)
            (complain form "an empty sentence"))
           ((find-if #'loose-surface-p names)
-           (complain form "surfaces stand in a list of their own, at the end: ~a"
+           (complain form "surfaces go in a list of their own, at the end: ~a"
                      (form-text (list-surfaces names list))))
           ((some (lambda (name) (not (namep name))) names)
            (complain form "~a: a sentence is made of words, and may end in one list of surfaces"
@@ -221,7 +221,7 @@ the last perhaps a list of surfaces.  Returns NIL after a complaint."
 wrong in it.  This is where an action is attached: DEFINE-ACTION adds a method.")
   (:method (verb action rulebase)
     (declare (ignore rulebase))
-    (complain (action-form action) "~a is no action; actions are ~{~a~^, ~}~a" verb
+    (complain (action-form action) "~a is not an action; actions are ~{~a~^, ~}~a" verb
               (action-verbs) (suggestion (string verb) (action-verbs)))))
 
 (defun sentence-text (words surfaces)
@@ -309,7 +309,7 @@ NIL after a complaint."
                             :comment (and *comments* (gethash form *comments*)))))
     (cond ((not (part-p form "RULE"))
            (let ((*subject* nil))
-             (complain form "~a is no rule: a rule file holds (RULE name (IF clause...) (THEN ~
+             (complain form "~a is not a rule: a rule file holds (RULE name (IF clause...) (THEN ~
                              action...))" (form-text form))))
           ((or (null name) (/= (length form) 4)
                (not (part-p (third form) "IF")) (not (part-p (fourth form) "THEN")))

@@ -151,7 +151,7 @@ TERMS."
 (define-action :cant (action rulebase)
   (let ((words (action-operands action)))
     (if (or (null words) (notevery #'namep words))
-        (complain (action-form action) "CANT is followed by words that say why")
+        (complain (action-form action) "CANT needs words after it that say why")
         (let ((stop (make-stop :verdict :cant :rule *rule* :words (mapcar #'symbol-name words))))
           (setf (action-function action)
                 (lambda (memory binding)

@@ -1,7 +1,7 @@
-;;;; symmetry.lisp -- bindings of which one is enough.
+;;;; symmetry.lisp -- bindings that have the same effect as another, and can be left out.
 ;;;;
-;;;; Many a rule says the same after two of its variables were exchanged, as (ADJACENT (s1 s2)).
-;;;; Every binding of it then has a twin, and the later of both does nothing: a run leaves it out.
+;;;; Many rules say the same when two of their variables are exchanged, such as (ADJACENT (s1 s2)).
+;;;; Then every binding has a twin.  The later of the two changes nothing, so a run leaves it out.
 
 (in-package :supergrip-chainer)
 

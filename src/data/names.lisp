@@ -1,4 +1,4 @@
-;;;; names.lisp -- names are compared by their letters, whatever package they were read in.
+;;;; names.lisp -- names, which are compared by their letters, whatever package they were read in.
 
 (in-package :supergrip-data)
 

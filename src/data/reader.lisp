@@ -318,7 +318,7 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
     (next source)
     (note-place source (1+ depth))      ; as if QUOTE stood there
     (unless (skip-blanks source)
-      (fail-at source line column "nothing stands after this '"))
+      (fail-at source line column "nothing follows this '"))
     (let ((form (list :quote (read-form source (deeper source depth)))))
       (when (source-lines source)
         (setf (gethash form (source-lines source)) line))
@@ -341,7 +341,7 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
            (return (subseq (source-token source) 0 count)))
           (#\\ (setf character (peek source))
            (unless (member character '(#\" #\\))
-             (fail source "in a string, \\ stands only before \\ or \""))
+             (fail source "in a string, \\ may only come before \\ or \""))
            (next source)))
         (setf count (push-token source character count))))))
 
@@ -363,12 +363,12 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
     (loop for character = (peek source)
           until (or (null character) (delimiterp character))
           do (unless (name-character-p character)
-               (fail source "~a can't stand in a name or a number"
+               (fail source "~a is not allowed in a name or a number"
                      (character-description character)))
              (setf count (push-token source character count))
              (next source))
     (when (zerop count)
-      (fail source "~a can't stand here" (character-description (peek source))))
+      (fail source "~a is not allowed here" (character-description (peek source))))
     (if (number-start-p (source-token source) count)
         (token-number source count line column)
         (token-name source count line column))))
@@ -451,5 +451,5 @@ have returned it.  Signals a SYNTAX-ERROR if it holds anything else, or too much
                  (float (or (as-double form)
                             (refuse "a number out of range: numbers lie between 1e-300 and ~
                                      1e300, or are 0")))
-                 (t (refuse "~a can't stand in a form" (type-of form))))))
+                 (t (refuse "~a is not allowed in a form" (type-of form))))))
       (walk form 0))))

@@ -61,7 +61,7 @@ but / means anything.  If DIRECTORY is true, it is a directory, with or without 
                                          :as-directory directory))
         ((and (pathnamep file) (not (wild-pathname-p file)))
          (if directory (uiop:ensure-directory-pathname file) file))
-        (t (refuse-argument "~a is no name of a file: it is a string, or a path without wild cards"
+        (t (refuse-argument "~a is not the name of a file: that is a string, or a path without wild cards"
                             (form-text file)))))
 
 ;;; Files, with the system's reason where something can't be done

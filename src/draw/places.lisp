@@ -1,4 +1,4 @@
-;;;; places.lisp -- what of a picture must stay clear of words.
+;;;; places.lisp -- the parts of a picture on which no word may be put.
 
 (in-package :supergrip-draw)
 

@@ -90,7 +90,7 @@ forces in units of one finger’s greatest normal force, torques in their produc
     (when best
       (markup
         (:p :class "soft"
-            (say "The quality index Q compares the grasps of one task: the higher is the better.  It ~
+            (say "The quality index Q compares the grasps of one task: higher is better.  It ~
                   is neither a percentage nor a probability, and says nothing across tasks.  A radius ~
                   of 1 is exactly enough; above 1 there is something to spare.~@[  ~a~]~@[  ~a~]"
                  (weak-text "Forces" (candidate-force-radius best))

@@ -30,7 +30,7 @@ a list of numbers, each that of an element."
                     (first clause)))
          (row (and name (key-named name))))
     (cond ((null name)
-           (complain (clause-spot) "~a is not a part of a box description: its parts are lists as ~
+           (complain (clause-spot) "~a is not a part of a box description: its parts are lists such as ~
                                     (SIZE 12 2 2)" (value-text *notation* clause)))
           ((null row)
            (complain (clause-spot) "unknown key ~a~a; keys are ~{~a~^, ~}"
@@ -65,7 +65,7 @@ have ended it."
     (dolist (row missing)
       (complain *path* "~a is missing; it takes ~a" (key-name *notation* row) (key-takes row)))
     (when (and missing *places*)
-      (complain :end "the box ends here; if parts of it follow, one ~a too many stands here or before"
+      (complain :end "the box ends here; if more of it follows, there is one ~a too many, here or earlier"
                 (nth-value 1 (description-text *notation*))))))
 
 (defun complain-of-no-need (values)

@@ -221,7 +221,7 @@ constants.  NIL if one of them is NIL."
   (let ((grasp-faces (and (= (length form) 2) (quoted-faces (second form)))))
     (if (and (= (length grasp-faces) 2) (= 1 (logxor (first grasp-faces) (second grasp-faces))))
         (input-node (+ +distances+ (floor (first grasp-faces) 2)))
-        (complain form "~a: DIST takes two opposite faces, as (DIST '(N1 N2))" (form-text form)))))
+        (complain form "~a: DIST takes two opposite faces, such as (DIST '(N1 N2))" (form-text form)))))
 
 ;;; Helper functions
 
@@ -267,7 +267,7 @@ is."
   (if (and (consp binding) (namep (first binding)) (= (length binding) 2))
       (let ((node (parse-form (second binding) scope :number)))
         (and node (cons (symbol-name (first binding)) node)))
-      (complain form "~a is not a binding, as (r (/ (DIST '(N1 N2)) 2))" (form-text binding))))
+      (complain form "~a is not a binding, such as (r (/ (DIST '(N1 N2)) 2))" (form-text binding))))
 
 (defun parse-let (form scope wanted sequential)
   (if (not (and (= (length form) 3) (listp (second form))))
@@ -287,7 +287,7 @@ is."
       (let ((test (parse-form (first clause) scope :test))
             (value (parse-form (second clause) scope wanted)))
         (and test value (list test value)))
-      (complain form "~a is not a clause of COND, as (T 0)" (form-text clause))))
+      (complain form "~a is not a clause of COND, such as (T 0)" (form-text clause))))
 
 (define-form "COND" (:number :six) (form scope wanted)
   (let ((clauses (loop for clause in (rest form)

@@ -133,7 +133,7 @@ start from."
   (let ((grasp-face (and (consp contact) (grasp-face-index (first contact)))))
     (cond ((or (null grasp-face) (/= (length contact) 3))
            (complain contact "~a is not a contact: a face, and its place on it along the two other ~
-                           axes, as (N1 0 0)" (form-text contact)))
+                           axes, such as (N1 0 0)" (form-text contact)))
           ((and used (not (member grasp-face used)))
            (complain contact "a finger is on ~a, which is not one of USED-SURFACES"
                      (svref +grasp-faces+ grasp-face)))
@@ -178,7 +178,7 @@ start from."
 (defun parse-grasp (name plist form scope)
   "Return the draft of the grasp NAME, whose description is PLIST, or NIL after a complaint."
   (if (notany (lambda (part) (name-in part +grasp-keys+)) plist)
-      (complain form "~a is no grasp~a: its list has none of the keys ~{~a~^, ~}" name
+      (complain form "~a is not a grasp~a: its list has none of the keys ~{~a~^, ~}" name
                 (suggestion (symbol-name name) '("GRIPPER")) +grasp-keys+)
       (parse-grasp-parts name plist form scope)))
 
@@ -317,7 +317,7 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
                               (push (symbol-name (second form)) broken)))
                            ((gethash (draft-name draft) names)
                             (let ((*subject* (format nil "GRASP ~a" name)))
-                              (complain form "there is a grasp of this name before it")))
+                              (complain form "an earlier grasp has this name")))
                            (t (setf (gethash (draft-name draft) names) t)
                               (push draft drafts)))))))))
     (let* ((layout (scope-layout scope))

@@ -39,11 +39,11 @@ is among the others of the box, for BOX-VALUE."
 
 (define-box-key :size (:numbers 3) "three sizes in cm, above 0" (12 2 2)
   :slot :size)
-(define-box-key :weight :number "one number from 0, in finger forces" (0.2d0)
+(define-box-key :weight :number "one number, 0 or more, in finger forces" (0.2d0)
   :slot :weight :words "the weight")
-(define-box-key :u :number "one coefficient of friction from 0" (0.8d0)
+(define-box-key :u :number "one coefficient of friction, 0 or more" (0.8d0)
   :slot :friction :words "the friction u")
-(define-box-key :v :number "one coefficient of torsional friction from 0, in cm" (0.2d0)
+(define-box-key :v :number "one coefficient of torsional friction, 0 or more, in cm" (0.2d0)
   :slot :soft-friction :words "the torsional friction v")
 (define-box-key :constrained :faces "faces among X1 X2 Y1 Y2 Z1 Z2, or nothing" (:z2 :x1)
   :slot :constrained)
@@ -66,7 +66,7 @@ DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles."
                    :key #'box-key-key :test #'string=)))
     (if row
         (funcall (box-key-reader row) box)
-        (refuse-argument "~a is no key of a box: keys are ~{~a~^, ~}" (form-text key)
+        (refuse-argument "~a is not a key of a box: keys are ~{~a~^, ~}" (form-text key)
                          (mapcar #'box-key-key *box-keys*)))))
 
 (defun spread-p (row)
@@ -105,7 +105,7 @@ DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles."
   (:documentation "Return what a box description is, with its beginning, and what closes it.")
   (:method (notation)
     (declare (ignore notation))
-    (values "a list as ((SIZE 12 2 2) (WEIGHT 0.2) ...)" ")")))
+    (values "a list such as ((SIZE 12 2 2) (WEIGHT 0.2) ...)" ")")))
 
 (defgeneric spot-in-clause (notation clause row numbers)
   (:documentation "Return where in a description a part of the clause numbered CLAUSE, that of the key
@@ -195,7 +195,7 @@ its clause, give.  NIL after a complaint."))
           do (let ((face (and (or (namep value) (stringp value)) (face-index value))))
                (cond ((null face)
                       (setf good (complain (value-spot row number)
-                                           "~a is no surface of a box: surfaces are X1 X2 Y1 Y2 Z1 ~
+                                           "~a is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 ~
                                             Z2~:[~;, without parentheses of their own~]"
                                            (value-text *notation* value) (consp value))))
                      ((logbitp face set)

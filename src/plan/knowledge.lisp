@@ -164,8 +164,8 @@ being read is among its problems."
     (cond ((utf-16-p text 0 (length text))
            (refuse "this file is UTF-16; UTF-8 is read, which iconv -f UTF-16 -t UTF-8 makes of it"))
           ((> (length text) (room-for (length text)))
-           (refuse "this file is longer than ~d characters, for which the heap has room; ~
-                    --dynamic-space-size makes it larger" (room-for (length text))))
+           (refuse "this file is longer than the ~d characters that the heap has room for; ~
+                    --dynamic-space-size makes the heap larger" (room-for (length text))))
           (t (string-source text :name name)))))
 
 (defun accept-knowledge (make)

@@ -11,7 +11,7 @@
 (setf (documentation '*box* 'variable) "The box that BOX was set to last, or NIL.")
 
 (define-condition no-box-error (supergrip-error) ()
-  (:report "there is no box yet: set one as (setq box '((SIZE 12 2 2) (WEIGHT 0.2) ...))")
+  (:report "there is no box yet: set one with (setq box '((SIZE 12 2 2) (WEIGHT 0.2) ...))")
   (:documentation "Something was asked about the box before one was set."))
 
 (defun need-box ()
@@ -23,7 +23,7 @@
   (:report (lambda (condition stream)
              (with-slots (given) condition
                (if given
-                   (format stream "~a is no plan: FORWARD-CHAIN, PLAN and TRY-GRASP return plans"
+                   (format stream "~a is not a plan: FORWARD-CHAIN, PLAN and TRY-GRASP return plans"
                            (form-text given))
                    (write-string "there is no plan yet: call (forward-chain) first" stream)))))
   (:documentation "A question about a plan was asked before there was one, or of something else."))
@@ -32,7 +32,7 @@
   "Return OBJECT if it is knowledge."
   (if (knowledge-p object)
       object
-      (refuse-argument "~a is no knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force"
+      (refuse-argument "~a is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force"
                        (form-text object))))
 
 (defun name-of (designator)

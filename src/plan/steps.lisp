@@ -1,7 +1,7 @@
 ;;;; steps.lisp -- the steps through which TRY takes a candidate: a grasp in one matching.
 ;;;;
 ;;;; Grasping conditions, offset, positions of the fingers, wrench and twist rotated to X Y Z,
-;;;; lifting, quality.  A candidate that passes is possible; one that fails keeps the step that it failed.
+;;;; lifting, quality.  A candidate that passes is possible; one that fails records the step that it failed.
 
 (in-package :supergrip)
 

@@ -1,7 +1,7 @@
 ;;;; try.lisp -- the lower level: the function TRY and the actions TRY and KEEP.
 ;;;;
-;;;; TRY takes each matching that the suggestion and the constrained faces leave, in order, through the
-;;;; steps of steps.lisp.
+;;;; The suggestion and the constrained faces rule some matchings out.  TRY takes each of the others, in
+;;;; order, through the steps of steps.lisp.
 
 (in-package :supergrip)
 
@@ -116,8 +116,8 @@ return true as the second value."
       (parse-suggestion (rest (action-operands action)) action))
     (cond (grasp (compile-try action grasp))
           ((not (namep name))
-           (complain (action-form action) "TRY names a grasp, as (TRY PINCH-3-PARALLEL)"))
-          ;; Of a grasp that is wrong enough was said.
+           (complain (action-form action) "TRY names a grasp, such as (TRY PINCH-3-PARALLEL)"))
+          ;; A grasp with errors was already reported.
           ((name-in name (graspbase-broken graspbase)))
           (t (complain (action-form action) "TRY names ~a, which is not in the database~a" name
                        (suggestion (symbol-name name)

@@ -31,7 +31,7 @@
 STREAM (NIL: do not) and return a list of DIFFERENCEs, in the order of BOXES."
   (mapc #'check-knowledge-argument (list old new))
   (unless (or (box-p boxes) (proper-list-p boxes))
-    (refuse-argument "~a is no list of boxes" (form-text boxes)))
+    (refuse-argument "~a is not a list of boxes" (form-text boxes)))
   (let* ((boxes (if (one-box-p boxes) (list boxes) boxes))
          (differences
           (loop for box in boxes

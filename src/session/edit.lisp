@@ -1,7 +1,7 @@
 ;;;; edit.lisp -- changing knowledge while at work, and seeing what a change changes.
 ;;;;
 ;;;; Knowledge is immutable: an edit makes new knowledge of the old forms and the new one, and only
-;;;; if that is good does it come into force.  Plans made before keep theirs.
+;;;; if that is valid does it take effect.  Plans made before keep the old one.
 
 (in-package :supergrip)
 
@@ -140,5 +140,5 @@ knowledge in force.  Where a variable is meant, as inside a function, it is SETQ
           ((definition-p name (quoted-list value))
            `(edit '(setq ,name ,value)))
           ((unquoted-p name value)
-           `(refuse-argument "the quote is missing: it is (setq ~(~a~) '(...))" ',name))
+           `(refuse-argument "the quote is missing: write (setq ~(~a~) '(...))" ',name))
           (t `(cl:setq ,@pairs)))))

@@ -24,7 +24,7 @@ how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger bef
         (keys '(:box :knowledge :gamma :stream :trace :step)))
     (loop for (key) on arguments by #'cddr
           unless (member key keys)
-            do (refuse-argument "~a is no key of FORWARD-CHAIN: keys are ~{:~a~^, ~}" (form-text key)
+            do (refuse-argument "~a is not a key of FORWARD-CHAIN: keys are ~{:~a~^, ~}" (form-text key)
                                 keys))
     (apply #'chain-box arguments)))
 

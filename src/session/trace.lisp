@@ -13,7 +13,7 @@ many bindings, 3 also every action and the candidates that fail, 4 also what mee
   "Return the level of trace LEVEL, 0 for NIL."
   (cond ((null level) 0)
         ((typep level '(integer 0)) level)
-        (t (refuse-argument "~a is no level of trace: it is 0, nothing, to 4, everything"
+        (t (refuse-argument "~a is not a trace level: levels go from 0 (nothing) to 4 (everything)"
                             (form-text level)))))
 
 (defun check-name (name)
@@ -56,7 +56,8 @@ fact WHAT, as '(PARALLEL (Y2 Y1)), becomes known.  Returns all breaks."
          (multiple-value-call #'sorted-fact-text
            (parse-fact what (knowledge-rulebase *knowledge*))))
         ((name-of what))
-        (t (refuse-argument "~a is no break: it is a name or a fact, as (PARALLEL (Y2 Y1))"
+        (t (refuse-argument "~a is not a break: a break is a rule's name or a fact, such as ~
+                             (PARALLEL (Y2 Y1))"
                             (form-text what)))))
 
 (defun sorted-fact-text (predicate face-list)

@@ -32,7 +32,7 @@
         ((or (null stream)
              (and (streamp stream) (open-stream-p stream) (output-stream-p stream)))
          stream)
-        (t (refuse-argument "~a is no stream that can be printed to" (form-text stream)))))
+        (t (refuse-argument "~a is not a stream that can be printed to" (form-text stream)))))
 
 (defun write-transcript (plan &optional (stream *standard-output*))
   "Write PLAN to STREAM, or nowhere if that is NIL, in the lines of the paper's session."

@@ -164,7 +164,7 @@ OTHER-P is true, and false of the next one of as many digits towards FROM.  SAME
 (defun explain-choice (&optional (plan *plan*))
   "Return the CHOICE on PLAN: why its best grasp is the best, and what would change the choice."
   (when (unfinished-p (need-plan plan))
-    (refuse-argument "the run is not over, so nothing is the best yet"))
+    (refuse-argument "the run is not over, so there is no best grasp yet"))
   (let* ((best (plan-best plan))
          (runner-up (second (plan-possible plan))))
     (make-choice :plan plan
@@ -190,7 +190,7 @@ choice to change."
   (write-limit "Velocity" "moves with" nil (choice-velocity answer) stream)
   (write-meaning answer stream)
   (when (choice-runner-up answer)
-    (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, tried later~;Q ~a less~].~%"
+    (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, but tried later~;a Q lower by ~a~].~%"
             (candidate-grasp (choice-runner-up answer))
             (candidate-matching (choice-runner-up answer)) (> (choice-margin answer) +tie+)
             (number-text (choice-margin answer))))
@@ -216,7 +216,7 @@ choice to change."
                      (first (number-texts (limit-radius limit) 1)) kind))
   (let ((best (plan-best (choice-plan answer))))
     (when best
-      (format stream "Q, ~a, compares grasps for one task: it is no chance of success.~%"
+      (format stream "Q, ~a, only compares grasps for one task; it is not a probability of success.~%"
               (three-decimals (candidate-quality best))))))
 
 (defun write-changes (changes stream)

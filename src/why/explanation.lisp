@@ -14,7 +14,7 @@
              (with-slots (name known hint) condition
                (cond (hint (format stream "~a is ~a" (form-text name) hint))
                      ((null (name-of name))
-                      (format stream "~a is no name: rules and grasps are named by symbols or strings"
+                      (format stream "~a is not a name: rules and grasps are named by symbols or strings"
                               (form-text name)))
                      (t (format stream "there is no rule or grasp ~a~a; there are ~a~@[~%~a~]"
                                 (form-text (make-symbol (name-of name)))

@@ -97,7 +97,7 @@ does not."
                (axis-name axis) (number-texts (bounded (aref (workspace-load workspace) axis))
                                          (aref (workspace-wrench workspace) axis)))
         (format nil "it can't hold the weight: the load takes ~{~a of what the grasp bears ~a~^, ~
-                     ~}, together ~a; the axes share the same friction, so 1 is the most"
+                     ~}, together ~a; the axes share the same friction, so the sum may be at most 1"
                 (loop for share in shares for axis from 0
                       when (plusp share) collect (number-text share) and collect (axis-name axis))
                 (first (number-texts (total-share shares) 1))))))

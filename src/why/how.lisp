@@ -1,4 +1,4 @@
-;;;; how.lisp -- HOW: a fact is known, or why it is not.
+;;;; how.lisp -- HOW: how a fact came to be known, or why it is not known.
 
 (in-package :supergrip)
 
@@ -6,7 +6,7 @@
   ((form :initarg :form) (text :initarg :text))
   (:report (lambda (condition stream)
              (with-slots (form text) condition
-               (format stream "~a is no fact that could be known: ~a" (form-text form) text))))
+               (format stream "~a is not a fact that could be known: ~a" (form-text form) text))))
   (:documentation "A question was asked about a sentence that no rule or input speaks of."))
 
 (defun deriving-rules (predicate plan)
@@ -39,7 +39,7 @@ NO-FACT-ERROR."
                     (walk form)))
     (syntax-error (condition)
       (error 'no-fact-error :form form
-                            :text (plain-text "~a; a fact is a list, as (PARALLEL (Y2 Y1))"
+                            :text (plain-text "~a; a fact is a list, such as (PARALLEL (Y2 Y1))"
                                               (problem-text
                                                (first (input-error-problems condition))))))))
 
@@ -57,14 +57,14 @@ may be a string, or have strings for names."
              (error 'no-fact-error :form form :text (apply #'plain-text control arguments)))
            (known () (map 'list #'predicate-text (rulebase-predicates rulebase))))
       (cond ((null words)
-             (refuse "a fact is a list, as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)"))
+             (refuse "a fact is a list, such as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)"))
             ((intersection '("NOT" "NO") words :test #'string=)
              (refuse "ask about the sentence without NOT or NO"))
             ((and (null lists) (find-if #'loose-surface-p form))
-             (refuse "surfaces stand in a list of their own: ~a" (form-text (list-surfaces form))))
+             (refuse "surfaces go in a list of their own: ~a" (form-text (list-surfaces form))))
             ((rest lists) (refuse "ask about one list of surfaces at a time"))
             ((find-if-not #'namep (remove-if #'consp form))
-             (refuse "~a can't stand in a fact"
+             (refuse "~a is not allowed in a fact"
                      (form-text (find-if-not #'namep (remove-if #'consp form)))))
             ((null predicate)
              (refuse "nothing speaks of ~{~a~^ ~}~a; known are ~a" words

@@ -88,7 +88,8 @@ TEXT is a sentence, PLAN the plan."
     (cond (candidate (explain-candidate candidate plan))
           (constrained
            (make-not-chosen :kind :constrained :grasp grasp :matching matching :faces constrained
-                            :text (format nil "it would use ~{~a~^, ~}, constrained" constrained)))
+                            :text (format nil "it would use ~{~a~#[~; and ~:;, ~]~}, which ~:[is~;are~] constrained"
+                                          constrained (rest constrained))))
           (same
            (make-not-chosen :kind :equivalent :grasp grasp :matching matching
                             :candidates (list same)
@@ -120,7 +121,7 @@ TEXT is a sentence, PLAN the plan."
                  ((null rules) "no rule tries it")
                  (matching "no rule tried it in this matching")
                  ((some #'refusal-fired refusals)
-                  "what the rules suggest is no matching, or would use a constrained face")
+                  "what the rules suggest is not a matching, or would use a constrained face")
                  (t "no rule tried it")))))
 
 (defun refuse-grasp (grasp plan)
@@ -158,9 +159,9 @@ faces) if that is given, was not chosen, a NOT-CHOSEN."
         (refuse-matching grasp matching plan)
         (make-not-chosen :kind :no-matching :grasp grasp :faces words
                          :text (if words
-                                   (format nil "(~{~a~^ ~}) is no matching: N O A must be a proper ~
+                                   (format nil "(~{~a~^ ~}) is not a matching: N O A must be a proper ~
                                                 rotation of X Y Z, N1 opposite N2, and so on" words)
-                                   (format nil "~a is no matching: a matching is six faces, for N1 ~
+                                   (format nil "~a is not a matching: a matching is six faces, for N1 ~
                                                 N2 O1 O2 A1 A2" (form-text faces)))))))
 
 (defun why-not (name &optional matching (plan *plan*))
@@ -186,9 +187,9 @@ is HOW's.  PLAN may stand in the place of MATCHING."
 
 (defun write-untried (candidate plan stream)
   (if (eq (candidate-outcome candidate) :possible)
-      (format stream "If tried it would be possible, with Q=~a in (~{~a~^ ~}).~%"
+      (format stream "If tried, it would be possible, with Q=~a in (~{~a~^ ~}).~%"
               (three-decimals (candidate-quality candidate)) (candidate-matching candidate))
-      (format stream "If tried it would fail; nearest in (~{~a~^ ~}): ~a.~%"
+      (format stream "If tried, it would fail; nearest in (~{~a~^ ~}): ~a.~%"
               (candidate-matching candidate) (nth-value 1 (candidate-failure candidate plan)))))
 
 (defmethod topic ((explanation not-chosen))

@@ -83,7 +83,7 @@ first clause that fails for all of them.  NIL if none does."
   (dolist (refusal refusals)
     (write-answer refusal stream))
   (when (plusp more)
-    (format stream "~d more rule~:p did not either.~%" more)))
+    (format stream "~d more rule~:p ~:*~[~;is~:;are~] left out.~%" more)))
 
 (defmethod write-answer ((answer refusal) stream)
   (let ((rule (refusal-rule answer)))
@@ -92,7 +92,7 @@ first clause that fails for all of them.  NIL if none does."
                    (refusal-only-grasp answer)))
           ((refusal-fired answer) (write-fired answer stream))
           ((and (refusal-stop answer) (waiting-p (refusal-stop answer)))
-           (format stream "RULE ~a has not run yet: the run stands ~:[in~;before~] RULE ~a.~%"
+           (format stream "RULE ~a has not run yet: the run is now ~:[in~;before~] RULE ~a.~%"
                    (rule-name rule) (eq (stop-verdict (refusal-stop answer)) :before)
                    (rule-name (stop-rule (refusal-stop answer)))))
           ((refusal-stop answer)
@@ -122,14 +122,14 @@ first clause that fails for all of them.  NIL if none does."
   (let* ((rule (refusal-rule refusal))
          (clause (refusal-clause refusal)))
     (format stream "RULE ~a ~:[did not fire~;did fire, but not for this~]: clause ~d, ~a, fails~
-                    ~:[~; for all bindings before it~].~%"
+                    ~:[~; for every binding of the clauses before it~].~%"
             (rule-name rule) (refusal-fired-for-others refusal)
             (refusal-number refusal) (form-text (clause-form clause))
             (> (refusal-number refusal) 1))
     (write-tried-bindings rule (refusal-bindings refusal) stream)
     (if (clause-negated clause)
         (dolist (block (refusal-blocks refusal))
-          (format stream "  In its way stands~%")
+          (format stream "  This stands in its way:~%")
           (write-tree block stream 2)
           (terpri stream))
         (format stream "  ~a~%" (missing-text clause (or (> (refusal-number refusal) 1)
@@ -145,8 +145,8 @@ first clause that fails for all of them.  NIL if none does."
   (let ((words (predicate-text (clause-predicate clause)))
         (these (and bound (clause-terms clause))))
     (if (predicate-given (clause-predicate clause))
-        (format nil "~a is an input, and the box does not give it~:[~; for these~]." words these)
-        (format nil "No rule before said ~a~:[~; of these~]." words these))))
+        (format nil "~a is an input, and the box does not give it~:[~; for these faces~]." words these)
+        (format nil "No rule before it said ~a~:[~; of these faces~]." words these))))
 
 (defmethod topic ((explanation refusal))
   (rule-name (refusal-rule explanation)))
