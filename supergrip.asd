@@ -147,7 +147,7 @@
 (defsystem "supergrip/test"
   :description "All tests."
   :license "MIT"
-  :depends-on ("supergrip/batch" "supergrip/chainer-test" "supergrip/random-boxes" "supergrip/oracle")
+  :depends-on ("supergrip/test-tools")
   :pathname "t/"
   :serial t
   :components ((:file "paper")
@@ -174,7 +174,9 @@
                (:file "batch")
                (:file "main")
                (:file "documents")
-               (:static-file "fuzz.lisp"))
+               (:static-file "fuzz.lisp")
+               (:static-file "run.lisp")
+               (:static-file "alone"))
   :perform (test-op (operation system) (symbol-call :supergrip-test :run-tests)))
 
 (defsystem "supergrip/oracle"
@@ -203,17 +205,17 @@
                              (:static-file "pencil.clp")
                              (:static-file "run.lisp")))))
 
-(defsystem "supergrip/random-boxes"
-  :description "Random boxes for tests."
+(defsystem "supergrip/test-tools"
+  :description "What the tests of several files share."
   :license "MIT"
-  :depends-on ("supergrip/chainer-test")
+  :depends-on ("supergrip/batch" "supergrip/chainer-test" "supergrip/oracle")
   :pathname "t/"
-  :components ((:file "random")))
+  :components ((:file "tools")))
 
 (defsystem "supergrip/draw-test"
   :description "The tests of the pictures and reports; python3 parses them."
   :license "MIT"
-  :depends-on ("supergrip/draw" "supergrip/random-boxes")
+  :depends-on ("supergrip/draw" "supergrip/test-tools")
   :pathname "t/"
   :serial t
   :components ((:file "draw")

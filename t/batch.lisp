@@ -1,69 +1,7 @@
 ;;;; batch.lisp -- many boxes through the executable: every one has its record, whatever comes.
 
 (in-package :supergrip-test)
-(in-suite all)
-
-(defvar *program* nil "The executable that these tests have made.")
-
-(defun program ()
-  "Return the name of the executable, made when it is first asked for."
-  (or *program*
-      (let ((file (format nil "~asupergrip-test-~36r/supergrip"
-                          (uiop:native-namestring (uiop:temporary-directory))
-                          (random (expt 36 8) (make-random-state t)))))
-        (multiple-value-bind (status output errors)
-            (run-process (append (script "src/build.lisp") (list file)))
-          (unless (eql status 0)
-            (error "the executable can't be made: ~a~a" output errors)))
-        (setf *program* file))))
-
-(defun remove-program ()
-  (when *program*
-    (uiop:delete-directory-tree (uiop:pathname-directory-pathname *program*) :validate t)
-    (setf *program* nil)))
-
-(defun octets (text)
-  "Return TEXT, a string, octets, or a list of both, as octets."
-  (etypecase text
-    (string (sb-ext:string-to-octets text :external-format :utf-8))
-    (list (apply #'concatenate '(vector (unsigned-byte 8)) (mapcar #'octets text)))
-    (vector text)))
-
-(defun run-on (text command)
-  "Run COMMAND with TEXT on its standard input.  Return its status, output and errors."
-  (uiop:with-temporary-file (:stream out :pathname file :element-type '(unsigned-byte 8))
-    (write-sequence (octets text) out)
-    :close-stream
-    (run-process (list* "timeout" "60" command) :input file)))
-
-(defun answers (text &rest options)
-  "Let the executable answer the boxes of TEXT.  Return its records, status and errors."
-  (multiple-value-bind (status output errors)
-      (run-on text (list* (program) "--format" "json" options))
-    (values (mapcar #'json-record (lines-of output)) status errors)))
-
-(defun statuses (records)
-  "Return the status of each of RECORDS; where it is error, the reason."
-  (loop for record in records
-        collect (if (equal (getf record :status) "error")
-                    (getf record :reason)
-                    (getf record :status))))
-
-(defparameter *pencil*
-  "((SIZE 12 2 2) (WEIGHT 0.2) (u 0.8) (v 0.2) (CONSTRAINED Z2 X1)
- (FORCE-NEEDED (1 0.8 0.8 0.3 1 1)) (VELOCITY-NEEDED (0 0.8 0.8 0 0.8 0.8)))")
-
-(defparameter *json-pencil*
-  "{\"size\": [12, 2, 2], \"weight\": 0.2, \"u\": 0.8, \"v\": 0.2, \"constrained\": [\"Z2\", \"X1\"],
- \"force_needed\": [1, 0.8, 0.8, 0.3, 1, 1], \"velocity_needed\": [0, 0.8, 0.8, 0, 0.8, 0.8]}")
-
-(defun changed (text old new)
-  "Return TEXT with NEW in place of the first OLD."
-  (let ((start (search old text)))
-    (concatenate 'string (subseq text 0 start) new (subseq text (+ start (length old))))))
-
-(defun one-line (text) (substitute #\Space #\Newline text))
-(defun repeated (count text) (format nil "~v@{~a~:*~}" count text))
+(define-suite batch "Many boxes through the executable: every one has its record, whatever comes.")
 
 ;;; Where records begin and end
 

@@ -24,7 +24,7 @@
                  (warning (lambda (warning) (push (princ-to-string warning) *warnings*))))
     (asdf:load-system "supergrip/test" :force '("supergrip" "supergrip/chainer"
                                                 "supergrip/chainer-test" "supergrip/oracle"
-                                                "supergrip/random-boxes" "supergrip/test"))
+                                                "supergrip/test-tools" "supergrip/test"))
     (asdf:load-system "supergrip/bench" :force '("supergrip/bench"))
     (asdf:load-system "supergrip/draw-test" :force '("supergrip/draw" "supergrip/draw-test"))))
 

@@ -1,7 +1,7 @@
 ;;;; chainer.lisp -- tests of the upper level alone: rules, matching, negation, order.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite chainer "Tests of the upper level alone: rules, matching, negation, order.")
 
 (defun rule-forms (text)
   (supergrip-data:read-all (supergrip-data:string-source text)))
@@ -33,13 +33,6 @@ Returns what the rules said, a list of strings, and the stop."
     (values (loop for event in (reverse (supergrip-chainer:memory-log memory))
                   collect (event-text event rulebase))
             stop)))
-
-(defun event-text (event rulebase)
-  (multiple-value-bind (predicate face-list) (supergrip-chainer:event-fact event rulebase)
-    (format nil "~a: ~a~{ ~a~}"
-            (supergrip-chainer:rule-name (supergrip-chainer:event-rule event rulebase))
-            (supergrip-chainer:predicate-text predicate)
-            (supergrip-chainer:face-list-names face-list))))
 
 (defparameter *pairs* '((opposed z2 z1) (opposed y2 y1) (opposed x2 x1)))
 

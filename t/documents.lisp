@@ -6,7 +6,7 @@
 ;;;; directory.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite documents "What README.md and docs/ show is what happens.")
 
 (defun documents ()
   "Return the names of README.md and of the pages in docs/."

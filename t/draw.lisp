@@ -1,12 +1,9 @@
 ;;;; draw.lisp -- pictures and reports: well-formed, to scale, inside their canvas, and escaped.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite draw "Pictures and reports: well-formed, to scale, inside their canvas, and escaped.")
 
 ;;; All pictures of a test are written into one folder, and parsed in one go, by Python's parser.
-
-(defun own-file (name)
-  (asdf:system-relative-pathname "supergrip" name))
 
 (defmacro with-folder ((folder) &body body)
   "Run BODY with FOLDER bound to an empty folder that is removed afterwards."
@@ -20,7 +17,7 @@
 (defun parsed (folder)
   "Return what draw-check.py finds in FOLDER: for each file its name, complaints and views."
   (let ((lines (lines-of (uiop:run-program
-                          (list "python3" (uiop:native-namestring (own-file "t/draw-check.py"))
+                          (list "python3" (uiop:native-namestring (project-file "t/draw-check.py"))
                                 (uiop:native-namestring folder))
                           :output :string)))
         (*read-eval* nil))
@@ -31,7 +28,7 @@
 
 (defun example-boxes ()
   "Return an alist from name to description of the boxes of the examples."
-  (loop for file in (uiop:directory-files (own-file "examples/") "*.lisp")
+  (loop for file in (uiop:directory-files (project-file "examples/") "*.lisp")
         for box = (with-open-file (in file)
                     (let ((*package* (find-package :supergrip-user)) (*read-eval* nil))
                       (loop for form = (ignore-errors (read in nil))
@@ -166,7 +163,7 @@
 (defun knowledge-with (text)
   "Return the knowledge that is loaded with the grasps in TEXT."
   (uiop:with-temporary-file (:pathname grasps :stream out)
-    (write-string (uiop:read-file-string (own-file "grasps.lisp")) out)
+    (write-string (file-text "grasps.lisp") out)
     (write-string text out)
     (finish-output out)
     (handler-bind ((warning #'muffle-warning))
@@ -189,7 +186,7 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
 
 (defun documented-grasp ()
   "Return the grasp that docs/languages.md has as an example."
-  (let* ((text (uiop:read-file-string (own-file "docs/languages.md")))
+  (let* ((text (file-text "docs/languages.md"))
          (start (search "(SETQ LATERAL" text)))
     (subseq text start (search "```" text :start2 start))))
 
@@ -285,7 +282,7 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
 
 (test what-other-grippers-can-not-show-is-an-error-of-ours
   (flet ((knowledge (from to)
-           (let* ((text (uiop:read-file-string (own-file "grasps.lisp")))
+           (let* ((text (file-text "grasps.lisp"))
                   (place (search from text)))
              (uiop:with-temporary-file (:pathname grasps :stream out)
                (write-string (subseq text 0 place) out)
@@ -399,7 +396,7 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
   (with-folder (folder)
     (multiple-value-bind (output errors status)
         (uiop:run-program (list "sbcl" "--script"
-                                (uiop:native-namestring (own-file "examples/batch.lisp"))
+                                (uiop:native-namestring (project-file "examples/batch.lisp"))
                                 "--report" (uiop:native-namestring (in-folder folder "pages")))
                           :input (make-string-input-stream
                                   (let ((*package* (find-package :supergrip-user)))

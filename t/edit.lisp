@@ -1,7 +1,7 @@
 ;;;; edit.lisp -- tests of changing knowledge while at work.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite edit "Tests of changing knowledge while at work.")
 
 (test continue-after-a-bad-edit-keeps-what-was
   (let ((before supergrip:*knowledge*))

@@ -1,7 +1,7 @@
 ;;;; engines.lisp -- the engine and the reference engine agree on random rules and forms, too.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite engines "The engine and the reference engine agree on random rules and forms, too.")
 
 ;;; Random rule bases.  They are valid: each predicate keeps its arity, each list holds distinct
 ;;; surfaces, actions use variables that a clause has, and the last rule remembers everything that
@@ -12,12 +12,6 @@
 
 (defparameter *six-variables* '(s1 s2 s3 s4 s5 s6))
 (defparameter *six-faces* '(x1 x2 y1 y2 z1 z2))
-
-(defun random-element (list state)
-  (nth (random (length list) state) list))
-
-(defun chance (percent state)
-  (< (random 100 state) percent))
 
 (defun random-surfaces (count variables state)
   "Return COUNT distinct surfaces, most of them from VARIABLES, as far as these reach."
@@ -178,99 +172,6 @@ order of predicates."
     (is (> exchanging 200) "only ~d rules have interchangeable variables" exchanging)))
 
 ;;; Random grasps.  The reference engine lets Lisp itself compile their forms.
-
-(defun random-form (depth variables helpers state)
-  "Return a form that gives a number.  HELPERS are (NAME PARAMETERS)."
-  (labels ((form () (random-form (1- depth) variables helpers state))
-           (choice () (random-test (1- depth) variables helpers state)))
-    (if (or (zerop depth) (chance 15 state))
-        (random-element `(0 1 2 1/2 3/4 (dist '(n1 n2)) (dist '(o1 o2)) (dist '(a1 a2)) ,@variables)
-                        state)
-        (ecase (random 12 state)
-          ((0 1 2) (list (random-element '(+ - * max min) state) (form) (form)))
-          (3 (list '/ (form) (form)))
-          (4 (list (random-element '(posit abs - sqrt) state) (form)))
-          (5 `(expt ,(form) ,(random-element '(2 3 1/2 -1) state)))
-          ((6 7) `(cond ,@(loop repeat (1+ (random 2 state)) collect (list (choice) (form)))
-                        (t ,(form))))
-          (8 `(if ,(choice) ,(form) ,(form)))
-          ((9 10) (let ((name (random-element '(p q r) state)))
-                    `(,(random-element '(let let*) state) ((,name ,(form)))
-                      ,(random-form (1- depth) (adjoin name variables) helpers state))))
-          (11 (if helpers
-                  (destructuring-bind (name parameters) (random-element helpers state)
-                    (cons name (loop repeat (length parameters) collect (form))))
-                  (form)))))))
-
-(defun random-test (depth variables helpers state)
-  "Return a form that is true or false."
-  (flet ((form () (random-form (max 0 (1- depth)) variables helpers state))
-         (choice () (random-test (1- depth) variables helpers state)))
-    (if (or (plusp depth) (chance 50 state))
-        (ecase (random 6 state)
-          ((0 1 2) (list (random-element '(< <= > >=) state) (form) (form)))
-          (3 `(constrained ',(random-element '(n1 o1 o2 a1) state)))
-          (4 (if (plusp depth)
-                 (list* (random-element '(and or) state) (loop repeat 2 collect (choice)))
-                 t))
-          (5 (if (plusp depth) `(not ,(choice)) '(not (= u u)))))
-        t)))
-
-(defun random-six (state variables helpers)
-  "Return a form that gives six numbers, most of them above 0."
-  (flet ((entries ()
-           (loop repeat 6
-                 for form = (random-form 4 variables helpers state)
-                 collect (if (chance 90 state) `(max 1/8 ,form) form))))
-    (ecase (random 3 state)
-      (0 (entries))
-      (1 `(cond (,(random-test 2 variables helpers state) (list ,@(entries)))
-                (t (list ,@(entries)))))
-      (2 `(let* ((s ,(random-form 3 variables helpers state)))
-            (if ,(random-test 2 (cons 's variables) helpers state)
-                (list ,@(entries))
-                (list s ,@(rest (entries)))))))))
-
-(defun random-helpers (state)
-  "Return the forms of a few helpers; each may call those before it."
-  (let ((helpers '()))
-    (loop for name in '(h1 h2 h3)
-          for parameters in '((x) (x y) (x y z))
-          collect `(defun ,name ,parameters
-                     ,(random-form 3 (append parameters '(u v)) helpers state))
-          do (push (list name parameters) helpers))))
-
-(defun random-grasp-forms (state)
-  "Return the forms of a grasp file: the shipped gripper, helpers, and a random grasp G."
-  (let* ((helper-forms (random-helpers state))
-         (helpers (mapcar (lambda (form) (list (second form) (third form))) helper-forms))
-         (variables '(u v finger-length finger-width)))
-    (flet ((form (depth) (random-form depth variables helpers state)))
-      `((setq gripper '(finger-length 3 finger-dist 6 finger-spread 2 finger-width 1 dist-pinch 12
-                        width-hand 8 slippery-u 1/10))
-        ,@helper-forms
-        (setq g '(used-surfaces (n1 n2 a2)
-                  conditions ((or ,(random-test 3 variables helpers state)
-                                  (or ,(random-test 3 variables helpers state) (> u 1))))
-                  offset (let* ((f (min 1/8 (abs ,(form 3))))) (list 0 0 0 0 (- f) f))
-                  wrench ,(random-six state variables helpers)
-                  twist ,(loop repeat 6 collect `(max 0 (min 1 ,(form 2))))
-                  contacts ((n1 (min 1/4 ,(form 2)) 0) (n2 0 0))
-                  palm a2))))))
-
-(defparameter *try-g* '((rule only (if (opposed (s1 s2))) (then (try g) (keep best)))))
-
-(defun knowledge-of-grasps (forms)
-  "Return the knowledge of the grasp FORMS and of one rule, or NIL if a form has no value."
-  (flet ((file (forms name)
-           (text-file (with-standard-io-syntax (format nil "~{~:a~%~}" forms)) name)))
-    (multiple-value-bind (knowledge problems)
-        (supergrip::build-knowledge (file *try-g* "rules") (file forms "grasps"))
-      (if (supergrip-data:errors-in problems)
-          (is (every (lambda (problem) (search "no value" (princ-to-string problem)))
-                     (supergrip-data:errors-in problems))
-              "~{~a~%~}" problems)
-          knowledge))))
 
 (test both-engines-agree-on-random-forms
   (let ((state (sb-ext:seed-random-state 300))

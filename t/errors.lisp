@@ -1,15 +1,7 @@
 ;;;; errors.lisp -- bad boxes and bad knowledge: refused, with everything that is wrong named.
 
 (in-package :supergrip-test)
-(in-suite all)
-
-(defparameter *good-box*
-  '((:size 12 2 2) (:weight 0.2d0) (:u 0.8d0) (:v 0.2d0) (:constrained :z2 :x1)
-    (:force-needed (1 0.8d0 0.8d0 0.3d0 1 1)) (:velocity-needed (0 0.8d0 0.8d0 0 0.8d0 0.8d0))))
-
-(defun changed-box (key &rest values)
-  "Return the good box with other VALUES for KEY."
-  (substitute-if (cons key values) (lambda (clause) (eq (first clause) key)) *good-box*))
+(define-suite errors "Bad boxes and bad knowledge: refused, with everything that is wrong named.")
 
 (defun box-reports (form)
   (problem-texts (lambda () (supergrip:parse-box form))))
@@ -87,44 +79,6 @@
     (is (equalp '(12d0 2d0 2d0) (supergrip:box-size supergrip:box)))))
 
 ;;; Knowledge
-
-(defparameter *small-gripper*
-  "(SETQ GRIPPER '(FINGER-LENGTH 3 FINGER-DIST 6 FINGER-SPREAD 2 FINGER-WIDTH 1 DIST-PINCH 12
-                   WIDTH-HAND 8 SLIPPERY-U 0.1))")
-
-(defun text-file (text name)
-  "Return the data file that holds TEXT."
-  (handler-case
-      (multiple-value-bind (forms lines comments)
-          (supergrip-data:read-all (supergrip-data:string-source text :name name) :loose-names t)
-        (supergrip::make-data-file :name name :forms forms :lines lines :comments comments))
-    (supergrip:syntax-error (condition)
-      (supergrip::make-data-file :name name
-                                 :problems (supergrip:input-error-problems condition)))))
-
-(defun text-knowledge (rules grasps)
-  "Return the knowledge in the texts RULES and GRASPS, and the list of all problems."
-  (supergrip::build-knowledge (text-file rules "rules.lisp") (text-file grasps "grasps.lisp")))
-
-(defun knowledge-reports (rules grasps)
-  "Return the reports of errors in the texts RULES and GRASPS."
-  (mapcar #'princ-to-string
-          (supergrip-data:errors-in (nth-value 1 (text-knowledge rules grasps)))))
-
-(defun grasp-text (&rest changes)
-  "Return the text of a grasp G, with CHANGES, a plist from key to text, NIL to leave it out."
-  (format nil "(SETQ G '(~{~a ~a~%~}))"
-          (loop for (key text) on '(:used-surfaces "(N1 N2 A2)" :conditions "(T)"
-                                    :offset "(LIST 0 0 0 0 0 0)"
-                                    :wrench "(1 (* 2 u) (* 2 u) (* 2 v) 1 1)" :twist "(1 1 1 1 1 1)"
-                                    :contacts "((N1 0 0) (N2 0 0))" :palm "A2")
-                by #'cddr
-                for new = (getf changes key text)
-                when new append (list key new))))
-
-(defun grasp-reports (&rest changes)
-  (knowledge-reports "(RULE R (IF (SLIPPERY)) (THEN (TRY G)))"
-                     (format nil "~a~%~a" *small-gripper* (apply #'grasp-text changes))))
 
 (test a-small-knowledge-base-is-good
   (is (null (grasp-reports)))

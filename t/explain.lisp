@@ -1,22 +1,7 @@
 ;;;; explain.lisp -- explanations, traces, breaks and edits.
 
 (in-package :supergrip-test)
-(in-suite all)
-
-(defmacro printed (&body body)
-  "Return what BODY prints, as a list of lines."
-  `(lines-of (with-output-to-string (*standard-output*) ,@body)))
-
-(defun pencil-plan () (supergrip::plan (paper-box)))
-
-(defun plan-of (size u constrained &key (weight 0.05d0) (force '(1 1 1 0.5d0 0.5d0 0.5d0))
-                                     (velocity '(0 0 0 0 0 0)))
-  (supergrip::plan `((size ,@size) (weight ,weight) (u ,u) (v 0.2d0) (constrained ,@constrained)
-                     (force-needed ,force) (velocity-needed ,velocity))))
-
-(defmacro with-knowledge-restored (&body body)
-  `(let ((supergrip:*knowledge* supergrip:*knowledge*))
-     ,@body))
+(define-suite explain "Explanations, traces, breaks and edits.")
 
 ;;; HOW
 
@@ -86,9 +71,6 @@
              (printed (supergrip:why-not 'grip7 nil (plan-of '(4 4 6) 1.5d0 '(z2 z1 x2 y2)))))))
 
 ;;; WHY-NOT, grasps: each of the lower level's reasons
-
-(defun why-not-line (plan grasp &optional matching)
-  (first (printed (supergrip:why-not grasp matching plan))))
 
 (test why-not-tells-each-lower-level-reason
   (let ((pencil (pencil-plan)))

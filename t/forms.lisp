@@ -1,7 +1,7 @@
 ;;;; forms.lisp -- operators are rows, and what they give does not depend on float traps.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite forms "Operators are rows, and what they give does not depend on float traps.")
 
 (defun small-knowledge (&rest changes)
   "Return the knowledge of the grasp G with CHANGES (see GRASP-TEXT) and a rule that tries it."

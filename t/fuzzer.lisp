@@ -7,7 +7,7 @@
 (defpackage :supergrip-fuzzer
   (:use :cl)
   (:documentation "Spoils boxes, rules and grasps, and checks what comes of them.")
-  (:export #:fuzz-boxes #:fuzz-knowledge))
+  (:export #:write-spoiled-boxes #:fuzz-boxes #:fuzz-knowledge))
 
 (in-package :supergrip-fuzzer)
 
@@ -147,22 +147,24 @@ by the last octet and not before."
 
 ;;; A run
 
-(defun write-inputs (file notation count)
-  "Write COUNT spoiled boxes, each followed by a good one, to FILE.  Return a list that tells, for
-each of them, whether it must get exactly one record."
-  (with-open-file (out file :direction :output :if-exists :supersede
-                            :element-type '(unsigned-byte 8))
-    (loop for number below count
-          collect (let ((octets (spoiled-box notation)))
-                    (write-sequence octets out)
-                    (write-byte 10 out)
-                    (write-sequence (octets-of (good-box notation number)) out)
-                    (write-byte 10 out)
-                    (one-fragment-p octets notation)))))
+(defun write-spoiled-boxes (file notation count seed)
+  "Write COUNT spoiled boxes in NOTATION, chosen by SEED, each followed by a good one, to FILE.
+Return a list that tells, for each of them, whether it must get exactly one record."
+  (let ((*state* (sb-ext:seed-random-state seed))
+        (*read-default-float-format* 'double-float))
+    (with-open-file (out file :direction :output :if-exists :supersede
+                              :element-type '(unsigned-byte 8))
+      (loop for number below count
+            collect (let ((octets (spoiled-box notation)))
+                      (write-sequence octets out)
+                      (write-byte 10 out)
+                      (write-sequence (octets-of (good-box notation number)) out)
+                      (write-byte 10 out)
+                      (one-fragment-p octets notation))))))
 
 (defun records-between (file ones)
   "Return a string that says what is wrong with the JSON records in FILE, or NIL.  ONES as
-WRITE-INPUTS returns it."
+WRITE-SPOILED-BOXES returns it."
   (with-open-file (in file :external-format :utf-8)
     (loop with number = 0 and between = 0
           for line = (read-line in nil)
@@ -202,11 +204,9 @@ WRITE-INPUTS returns it."
 (defun fuzz-boxes (command notation count seed directory)
   "Let COMMAND, a list of strings, answer COUNT spoiled boxes in NOTATION, :LISP or :JSON, chosen by
 SEED.  Files are kept in DIRECTORY.  Return NIL, or a string that says what is wrong."
-  (let* ((*state* (sb-ext:seed-random-state seed))
-         (*read-default-float-format* 'double-float)
-         (input (merge-pathnames (format nil "fuzz-~(~a~).in" notation) directory))
+  (let* ((input (merge-pathnames (format nil "fuzz-~(~a~).in" notation) directory))
          (output (merge-pathnames (format nil "fuzz-~(~a~).out" notation) directory))
-         (ones (write-inputs input notation count)))
+         (ones (write-spoiled-boxes input notation count seed)))
     (or (run-program (append command '("--format" "json")
                              (unless (notation-told-p input notation)
                                (list "--input" (if (eq notation :json) "json" "sexp"))))

@@ -1,7 +1,7 @@
 ;;;; inputs.lisp -- a preliminary assertion is one row, and everything follows from it.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite inputs "A preliminary assertion is one row, and everything follows from it.")
 
 (defun knowledge-with-rule (text)
   "Return the shipped knowledge with the rule TEXT before all others, and the list of the problems."

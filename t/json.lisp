@@ -1,7 +1,7 @@
 ;;;; json.lisp -- tests of the JSON reader.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite json "Tests of the JSON reader.")
 
 (defun plain-json (value)
   "Return VALUE, as READ-JSON returns it, in lists: (:ARRAY ...), (:OBJECT (key . value) ...)."

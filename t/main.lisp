@@ -1,7 +1,7 @@
 ;;;; main.lisp -- the command line: every option and every exit status, by running the command.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite main "The command line: every option and every exit status, by running the command.")
 
 (defun shell (command &rest arguments)
   "Run COMMAND by bash, the executable being $0 and ARGUMENTS $1 and so on."
@@ -11,14 +11,6 @@
 
 (defun status-of (text &rest options)
   (nth-value 0 (run-on text (cons (program) options))))
-
-(defmacro with-text-file ((name text) &body body)
-  "Run BODY with NAME bound to the name of a file that holds TEXT."
-  `(uiop:with-temporary-file (:stream out :pathname ,name)
-     (write-string ,text out)
-     :close-stream
-     (let ((,name (uiop:native-namestring ,name)))
-       ,@body)))
 
 (test the-script-does-what-the-executable-does
   (dolist (options '(() ("--format" "json") ("--format=trace") ("--help") ("--version")
@@ -163,11 +155,8 @@ line" "dots.." "..." "~" "café" "~a" "[" "*.*"))
 
 (test lost-output-gives-74
   (destructuring-bind (status output errors)
-      (shell "\"$0\" < \"$1\" > /dev/full" (let ((file (format nil "~a.in" (program))))
-                                         (with-open-file (out file :direction :output
-                                                                   :if-exists :supersede)
-                                           (write-string *pencil* out))
-                                         file))
+      (with-text-file (pencil *pencil*)
+        (shell "\"$0\" < \"$1\" > /dev/full" pencil))
     (declare (ignore output))
     (is (eql 74 status))
     (is (search "standard output: can't be written: No space left on device" errors)))
@@ -300,6 +289,12 @@ print(run.wait() - 66, sum(out), sum(err) + 1)' \"$0\" \"$1\""
                     (second (answer "export PENCIL=\"$1\" PROGRAM=\"$0\"
                                   script -qec '~a | \"$PROGRAM\" > /dev/null' /dev/null < /dev/null"))))))))
 
+(defun spoiled-json ()
+  "Make a file of 1000 spoiled boxes in JSON beside the executable; return its name."
+  (let ((file (format nil "~a.spoiled" (program))))
+    (supergrip-fuzzer:write-spoiled-boxes file :json 1000 12)
+    file))
+
 (test pythons-json-reads-every-record
   (if (zerop (first (shell "python3 -c 'import json'")))
       (destructuring-bind (status output errors)
@@ -310,7 +305,7 @@ for line in sys.stdin:
     assert set(record) >= {\"name\", \"line\", \"status\", \"grasp\", \"matching\", \"quality\", \"u_w\",
         \"u_t\", \"limiting\", \"offset\", \"approach\", \"contacts\", \"tried\", \"possible\", \"reason\"}
     print(json.dumps(record))' > \"$0.json\"
-cat \"$1\" | \"$0\" --input json --format sexp" (format nil "~afuzz-json.in" (directory-namestring (program))))
+cat \"$1\" | \"$0\" --input json --format sexp" (spoiled-json))
         (declare (ignorable status errors))
         ;; What Python wrote, and what the other format says.
         (let ((lines (lines-of (uiop:read-file-string (format nil "~a.json" (program))
@@ -384,12 +379,9 @@ cat \"$1\" | \"$0\" --input json --format sexp" (format nil "~afuzz-json.in" (di
     (uiop:copy-file (program) copy)
     (uiop:run-program (list "chmod" "+x" copy))
     (with-text-file (rules (file-text "rules.lisp"))
-      (multiple-value-bind (status output errors)
-          (run-process (list "env" "-i" "sh" "-c" "cd / && \"$0\" --rules \"$1\" < \"$2\"" copy rules
-                             (format nil "~a.in" (program))))
-        (is (eql 0 status) "~a" errors)
-        (is (search "PINCH-3-PARALLEL" output))))))
-
-(test remove-what-the-tests-have-made
-  (remove-program)
-  (is (null *program*)))
+      (with-text-file (pencil *pencil*)
+        (multiple-value-bind (status output errors)
+            (run-process (list "env" "-i" "sh" "-c" "cd / && \"$0\" --rules \"$1\" < \"$2\""
+                               copy rules pencil))
+          (is (eql 0 status) "~a" errors)
+          (is (search "PINCH-3-PARALLEL" output)))))))

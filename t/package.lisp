@@ -1,19 +1,60 @@
-;;;; package.lisp -- the test suite: counting, and what all tests share.
+;;;; package.lisp -- the package of the tests, how they run, and what the chainer's tests share with
+;;;; the others: the chainer is tested with nothing else loaded.  All else that is shared: tools.lisp.
 
 (defpackage :supergrip-test
   (:use :cl :fiveam)
   (:documentation "The tests of SUPER-GRIP.")
-  (:export #:run-tests))
+  (:export #:run-tests #:print-tests))
 
 (in-package :supergrip-test)
 
 (def-suite all :description "All tests.")
-(in-suite all)
 
-(defun run-tests ()
-  "Run all tests that are loaded, print what failed or was skipped, and the line
-`N passed, N failed`.  Signals an error, after that line, if something failed or nothing ran."
-  (let* ((results (let ((*test-dribble* *standard-output*)) (run 'all)))
+(defmacro define-suite (name description)
+  "Make the suite NAME of ALL, which holds the tests of this file."
+  `(progn
+     (def-suite ,name :in all :description ,description)
+     (in-suite ,name)))
+
+;;; Running
+
+(defun shuffle (list state)
+  (let ((vector (coerce list 'vector)))
+    (loop for i from (1- (length vector)) downto 1
+          do (rotatef (aref vector i) (aref vector (random (1+ i) state))))
+    (coerce vector 'list)))
+
+(defun tests-of (name)
+  "Return the names of the tests that NAME, a symbol, names: one, or those of a suite, in order."
+  (let ((test (get-test name)))
+    (if (typep test 'fiveam::test-suite)
+        (loop for member being the hash-keys of (fiveam::tests test)
+              append (tests-of member))
+        (list name))))
+
+(defun named-tests (names)
+  "Return the names of the tests that NAMES, strings, name; without NAMES, of all."
+  (if names
+      (loop for name in names
+            for symbol = (find-symbol (string-upcase name) :supergrip-test)
+            unless (and symbol (get-test symbol))
+              do (error "there is no test and no suite ~a" name)
+            append (tests-of symbol))
+      (tests-of 'all)))
+
+(defun print-tests (&optional names)
+  "Print the names of the tests that NAMES name, each on a line."
+  (format t "~(~{~a~%~}~)" (named-tests names)))
+
+(defun run-tests (&key names seed)
+  "Run the tests and suites called NAMES, strings, or all; given SEED, a number, in the random order
+that it chooses.  Print what failed or was skipped, and the line `N passed, N failed`.
+Signals an error, after that line, if something failed or nothing ran."
+  (let* ((tests (named-tests names))
+         (results (let ((*test-dribble* *standard-output*))
+                    (run (if seed
+                             (shuffle tests (sb-ext:seed-random-state seed))
+                             tests))))
          (passed (count-if (lambda (result) (typep result 'fiveam::test-passed)) results))
          (skipped (remove 'fiveam::test-skipped results :key #'type-of :test-not #'eq))
          (failed (- (length results) passed (length skipped))))
@@ -23,10 +64,14 @@
             (loop for result in skipped
                   collect (list (fiveam::name (fiveam::test-case result))
                                 (fiveam::reason result))))
+    (when seed
+      (format t "in the order of seed ~d~%" seed))
     (format t "~d passed, ~d failed~%" passed failed)
     (finish-output)
     (when (or (plusp failed) (zerop passed))
       (error "the tests did not pass"))))
+
+;;; What the tests of the chainer share with others
 
 (defun problem-texts (function)
   "Return the report lines of the input error that FUNCTION signals, or NIL."
@@ -34,7 +79,18 @@
     (supergrip-data:input-error (condition)
       (mapcar #'princ-to-string (supergrip-data:input-error-problems condition)))))
 
-(defun lines-of (string)
-  "Return the list of the lines of STRING."
-  (with-input-from-string (in string)
-    (loop for line = (read-line in nil) while line collect line)))
+(defun read-text (text)
+  "Return the forms of TEXT, names as strings."
+  (labels ((plain (form)
+             (cond ((null form) nil)
+                   ((symbolp form) (symbol-name form))
+                   ((consp form) (mapcar #'plain form))
+                   (t form))))
+    (plain (supergrip-data:read-all (supergrip-data:string-source text)))))
+
+(defun event-text (event rulebase)
+  (multiple-value-bind (predicate face-list) (supergrip-chainer:event-fact event rulebase)
+    (format nil "~a: ~a~{ ~a~}"
+            (supergrip-chainer:rule-name (supergrip-chainer:event-rule event rulebase))
+            (supergrip-chainer:predicate-text predicate)
+            (supergrip-chainer:face-list-names face-list))))

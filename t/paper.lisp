@@ -1,55 +1,7 @@
 ;;;; paper.lisp -- what the paper prints: its session, its rules, its grasp and its box.
 
 (in-package :supergrip-test)
-(in-suite all)
-
-(defun project-file (name)
-  (asdf:system-relative-pathname "supergrip" name))
-
-(defun file-text (name)
-  (uiop:read-file-string (project-file name)))
-
-(defun replace-once (text from to)
-  "Return TEXT with the one occurrence of FROM replaced."
-  (let ((place (search from text)))
-    (assert (and place (not (search from text :start2 (1+ place)))) ()
-            "~s must stand once in the paper's text" from)
-    (concatenate 'string (subseq text 0 place) to (subseq text (+ place (length from))))))
-
-(defun rule-total () (length (supergrip:knowledge-rules supergrip:*knowledge*)))
-(defun grasp-total () (length (supergrip:knowledge-grasps supergrip:*knowledge*)))
-
-(defparameter *shipped-grasps*
-  '("PINCH-2-PARALLEL" "PINCH-3-PARALLEL" "PINCH-3-U-SHAPE" "PINCH-3-C-SHAPE" "PINCH-2-ADJACENT"
-    "PINCH-3-ADJACENT" "PINCH-3-CORNER")
-  "The names of the seven grasps: who runs the tests may have added others.")
-
-(defun shipped-grasps ()
-  (remove-if-not (lambda (grasp)
-                   (member (supergrip:grasp-name grasp) *shipped-grasps* :test #'string=))
-                 (supergrip:knowledge-grasps supergrip:*knowledge*)))
-
-(defun part-between (text start end)
-  "Return the part of TEXT from START up to END."
-  (let ((from (search start text)))
-    (subseq text from (search end text :start2 from))))
-
-(defun paper-form (start end &optional repairs)
-  "Return the form of the paper's text that begins with START, END coming after it; REPAIRS are
-pairs of what the scan has and what is read."
-  (let ((text (part-between (file-text "t/paper-listings.txt") start end)))
-    (loop for (from to) in repairs
-          do (setf text (replace-once text from to)))
-    (first (supergrip-data:read-all (supergrip-data:string-source text)))))
-
-(defun same-form-p (a b)
-  (equal (supergrip-data:form-text a) (supergrip-data:form-text b)))
-
-(defun shipped-form (file kind name)
-  (find-if (lambda (form) (and (supergrip-data:name= (first form) kind)
-                               (supergrip-data:name= (second form) name)))
-           (supergrip-data:read-all
-            (supergrip-data:string-source (file-text file)))))
+(define-suite paper "What the paper prints: its session, its rules, its grasp and its box.")
 
 (test the-four-printed-rules-ship-as-printed
   ;; Section Implementation, High-Level Rules: no repair is needed.
@@ -96,16 +48,6 @@ TWIST (0.8 0.5 1 0.2 1 1)))"))
     (is (equal '("CONTACTS" "PALM") (mapcar #'symbol-name (list (nth 10 shipped) (nth 12 shipped))))
         "only CONTACTS and PALM are added")
     (is (null (nthcdr 14 shipped)))))
-
-(defparameter *box-repairs*
-  '(("(WEIGHT 0 2)" "(WEIGHT 0.2)") ("(u 0 8)" "(u 0.8)") ("(v 0 2)" "(v 0.2)"))
-  "What the scan of the box has, and how it is read.")
-
-(defun paper-box ()
-  (paper-form "(SETQ BOX" "§" *box-repairs*))
-
-(defun transcript (plan)
-  (with-output-to-string (out) (supergrip:write-transcript plan out)))
 
 (defparameter *session-repairs*
   '(("OBJECT HAS ADJACENT SURFACES))" "OBJECT HAS ADJACENT SURFACES)")

@@ -1,12 +1,7 @@
 ;;;; plain.lisp -- texts whatever the printer is set to, names in any form, bounded answers.
 
 (in-package :supergrip-test)
-(in-suite all)
-
-(defmacro error-text (form)
-  "Return the text of the SUPERGRIP-ERROR that FORM signals."
-  `(handler-case (progn ,form "no error")
-     (supergrip:supergrip-error (condition) (princ-to-string condition))))
+(define-suite plain "Texts whatever the printer is set to, names in any form, bounded answers.")
 
 (defmacro with-odd-printer (&body body)
   "Run BODY with the printer as no text of ours may show it."
@@ -46,9 +41,6 @@
       (note (princ-to-string (supergrip:plan-best plan)))
       (note (princ-to-string (plan-of '(8 5 3) 0.05d0 '(z2)))))
     texts))
-
-(defun plan-box-too-heavy ()
-  (supergrip:plan-box (plan-of '(20 10 5) 0.8d0 '(z2) :weight 11)))
 
 (test texts-do-not-show-how-the-printer-is-set
   ;; The name of a type in #<...> is the user's.

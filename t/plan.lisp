@@ -1,7 +1,8 @@
 ;;;; plan.lisp -- a plan is a value: asking it changes nothing; a grasp that passes holds its box.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite plan
+  "A plan is a value: asking it changes nothing; a grasp that passes holds its box.")
 
 (defun readers-of (prefix)
   "Return the exported functions whose names begin with PREFIX, sorted."

@@ -1,81 +1,10 @@
 ;;;; properties.lisp -- what must hold for every box, tried on random ones, and beside an oracle.
 
 (in-package :supergrip-test)
-(in-suite all)
-
-(defparameter *oracle*
-  (supergrip-oracle:load-oracle-knowledge (project-file "rules.lisp") (project-file "grasps.lisp")))
+(define-suite properties
+  "What must hold for every box, tried on random ones, and beside an oracle.")
 
 ;;; The same plan from the definitions
-
-(defun log-facts (plan)
-  "Return what the rules of PLAN remembered, as the oracle has it."
-  (let ((rulebase (supergrip::knowledge-rulebase (supergrip:plan-knowledge plan))))
-    (loop for event in (supergrip:plan-log plan)
-          unless (supergrip::candidate-p event)
-            collect (multiple-value-bind (predicate face-list)
-                        (supergrip-chainer:event-fact event rulebase)
-                      (cons (supergrip-chainer:rule-name
-                             (supergrip-chainer:event-rule event rulebase))
-                            (append (supergrip-chainer:predicate-words predicate)
-                                    (let ((names (supergrip-chainer:face-list-names face-list)))
-                                      (and names (list names)))))))))
-
-(defun candidate-difference (candidate plan oracle)
-  "Return what of CANDIDATE differs from ORACLE, a plist, or NIL."
-  (flet ((differs (what ours theirs)
-           (unless (close-to ours theirs)
-             (return-from candidate-difference
-               (format nil "~a ~a ~a ~a: ~a, by the definitions ~a" (getf oracle :grasp)
-                       (getf oracle :matching) (getf oracle :outcome) what ours theirs)))))
-    (unless (and (equal (supergrip:candidate-grasp candidate) (getf oracle :grasp))
-                 (equal (supergrip:candidate-matching candidate) (getf oracle :matching))
-                 (eq (supergrip:candidate-outcome candidate) (getf oracle :outcome)))
-      (return-from candidate-difference
-        (format nil "~a ~a, by the definitions ~a" candidate
-                (supergrip:candidate-outcome candidate) oracle)))
-    (when (eq :possible (getf oracle :outcome))
-      (differs "Q" (supergrip:candidate-quality candidate) (getf oracle :q))
-      (differs "u_w" (supergrip:candidate-force-radius candidate) (getf oracle :u-w))
-      (differs "u_t" (supergrip:candidate-velocity-radius candidate) (getf oracle :u-t))
-      (differs "offset" (supergrip:candidate-offset candidate) (getf oracle :offset))
-      (differs "wrench" (supergrip:candidate-wrench candidate plan) (getf oracle :wrench))
-      (differs "twist" (supergrip:candidate-twist candidate plan) (getf oracle :twist))
-      (loop for contact in (supergrip:candidate-contacts candidate plan)
-            for (position face) in (getf oracle :contacts)
-            do (differs "contact" (getf contact :position) position)
-               (unless (equal face (getf contact :surface))
-                 (return-from candidate-difference "a contact on another face"))))
-    nil))
-
-(defun plan-difference (box &optional (knowledge supergrip:*knowledge*) (definitions *oracle*))
-  "Return what of the plan for BOX by KNOWLEDGE differs from the DEFINITIONS, or NIL."
-  (let* ((plan (supergrip::plan box :knowledge knowledge))
-         (oracle (supergrip-oracle:oracle-plan box definitions))
-         (best (getf oracle :best))
-         (candidates (supergrip:plan-candidates plan)))
-    (cond ((not (eq (supergrip:plan-verdict plan) (getf oracle :verdict))) "the verdict")
-          ((not (equal (log-facts plan) (getf oracle :log))) "the log")
-          ((/= (length candidates) (length (getf oracle :candidates))) "how many were tried")
-          ((and best (not (and (equal (getf best :grasp) (supergrip:plan-grasp plan))
-                               (equal (getf best :matching) (supergrip:plan-matching plan)))))
-           "the best")
-          (t (loop for candidate in candidates
-                   for theirs in (getf oracle :candidates)
-                   thereis (candidate-difference candidate plan theirs))))))
-
-(defun first-fault (fault boxes)
-  "Return the first of BOXES for which the function FAULT returns true, and what it returned."
-  (dolist (box boxes)
-    (let ((found (funcall fault box)))
-      (when found
-        (return (list box found))))))
-
-(defun random-boxes (count seed &rest keys)
-  (let ((boxes '()))
-    (for-random-boxes (box count seed :weight (getf keys :weight t))
-      (push box boxes))
-    boxes))
 
 (test plans-equal-the-definitions
   (let ((boxes (random-boxes 10000 1989)))
@@ -133,16 +62,6 @@
     (is (null (first-fault #'promise-fault boxes)) "~s" (first-fault #'promise-fault boxes))))
 
 ;;; What must not matter
-
-(defun plan-figures (plan)
-  (list (supergrip:plan-verdict plan) (supergrip:plan-reason plan)
-        (supergrip:possible-grasps plan) (length (supergrip:plan-candidates plan))))
-
-(defun shuffle (list state)
-  (let ((vector (coerce list 'vector)))
-    (loop for i from (1- (length vector)) downto 1
-          do (rotatef (aref vector i) (aref vector (random (1+ i) state))))
-    (coerce vector 'list)))
 
 (test the-order-of-keys-and-faces-does-not-matter
   (let ((state (sb-ext:seed-random-state 3)))
@@ -297,16 +216,6 @@
                                  (plain-nearest candidates (first plans)))))))
                (random-boxes 5000 31))))
     (is (> open 500) "only ~d open candidates" open)))
-
-(defun extreme-box (state)
-  "Return the description of a box whose numbers are of any size that may be."
-  (flet ((extreme (most) (* (expt 10d0 (- (random (* 2 most) state) most)) (+ 1 (random 9 state)))))
-    (let ((most (expt 10 (random 3 state))))
-      `((size ,@(loop repeat 3 collect (extreme (if (= most 100) 299 most))))
-        (weight ,(extreme most)) (u ,(extreme most)) (v ,(extreme (if (= most 100) 299 most)))
-        (constrained ,@(loop for face in '(x1 y1 z2) when (zerop (random 4 state)) collect face))
-        (force-needed (1 1 1 1 1 ,(random 1d0 state)))
-        (velocity-needed (1 1 1 1 1 ,(expt 10d0 (- (random 299 state)))))))))
 
 (test extreme-boxes-get-a-verdict-in-words
   (let ((state (sb-ext:seed-random-state 77)))

@@ -1,16 +1,7 @@
 ;;;; reader.lisp -- tests of the data reader.
 
 (in-package :supergrip-test)
-(in-suite all)
-
-(defun read-text (text)
-  "Return the forms of TEXT, names as strings."
-  (labels ((plain (form)
-             (cond ((null form) nil)
-                   ((symbolp form) (symbol-name form))
-                   ((consp form) (mapcar #'plain form))
-                   (t form))))
-    (plain (supergrip-data:read-all (supergrip-data:string-source text)))))
+(define-suite reader "Tests of the data reader.")
 
 (defun read-failure (text)
   "Return the report of the syntax error in TEXT, or NIL."

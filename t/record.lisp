@@ -1,7 +1,7 @@
 ;;;; record.lisp -- tests of records: what they say, and that both notations say the same.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite record "Tests of records: what they say, and that both notations say the same.")
 
 (defun written (record writer)
   "Return what WRITER, a function, writes for RECORD."
@@ -14,22 +14,6 @@
 
 (defun lisp-line (record) (written record #'supergrip::write-lisp-record))
 (defun json-line (record) (written record #'supergrip::write-json-record))
-
-(defun json-record (line)
-  "Return LINE, a record in JSON, as a plist such as PLAN-RECORD makes."
-  (labels ((plist (value)
-             (cond ((supergrip-data:json-object-p value)
-                    (loop for (key . member) in (supergrip-data:json-object-members value)
-                          collect (intern (string-upcase (substitute #\- #\_ key)) :keyword)
-                          collect (plist member)))
-                   ((supergrip-data:json-array-p value)
-                    (mapcar #'plist (supergrip-data:json-array-elements value)))
-                   ((supergrip-data:json-literal-p value) nil)
-                   (t value))))
-    (plist (supergrip-data:read-json (supergrip-data:string-source line)))))
-
-(defun lisp-record (line)
-  (let ((*read-eval* nil)) (read-from-string line)))
 
 (test the-pencil-has-its-record
   (let ((record (supergrip::plan-record (supergrip:plan (cons '(:name "pencil") *good-box*))

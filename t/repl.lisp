@@ -1,7 +1,7 @@
 ;;;; repl.lisp -- tests of typing at the REPL: what is taken, and what is left to the user.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite repl "Tests of typing at the REPL: what is taken, and what is left to the user.")
 
 (defpackage :supergrip-test-user
   (:use :cl :supergrip)

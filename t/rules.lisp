@@ -1,7 +1,7 @@
 ;;;; rules.lisp -- each of the fifteen rules alone, and each of the seven grasps at its best.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite rules "Each of the fifteen rules alone, and each of the seven grasps at its best.")
 
 (defparameter *rule-cases*
   '(("GRIP1" ((small (y2 y1)) (constrained (y1)))
@@ -78,12 +78,6 @@
               (and stop (list (supergrip-chainer:stop-verdict stop)))
               (and stop (eq :cant (supergrip-chainer:stop-verdict stop))
                    (list (format nil "~{~a~^ ~}" (supergrip-chainer:stop-words stop))))))))
-
-(defun shipped-rules ()
-  "Return the rules that are shipped, in the order of the file, without what a user has added."
-  (remove-if-not (lambda (rule)
-                   (assoc (supergrip-chainer:rule-name rule) *rule-cases* :test #'string=))
-                 (supergrip:knowledge-rules supergrip:*knowledge*)))
 
 (test every-rule-fires-alone-on-what-it-needs
   (is (equal (mapcar #'supergrip-chainer:rule-name (shipped-rules)) (mapcar #'first *rule-cases*))

@@ -1,20 +1,7 @@
 ;;;; scripts.lisp -- what a user starts, run as processes of their own.
 
 (in-package :supergrip-test)
-(in-suite all)
-
-(defun run-process (command &rest keys &key directory (environment '()) (input nil))
-  "Run COMMAND, a list of strings, with ENVIRONMENT, a list of NAME=VALUE or -uNAME.
-Returns its status, standard output and standard error."
-  (declare (ignorable keys))
-  (multiple-value-bind (output errors status)
-      (uiop:run-program (append '("env") environment command)
-                        :directory directory :input input :output :string :error-output :string
-                        :ignore-error-status t)
-    (values status output errors)))
-
-(defun script (name)
-  (list "sbcl" "--script" (uiop:native-namestring (project-file name))))
+(define-suite scripts "What a user starts, run as processes of their own.")
 
 (test the-pencil-session-prints-wherever-it-runs
   (let ((session (file-text "t/pencil-session.txt")))

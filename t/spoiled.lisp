@@ -1,45 +1,7 @@
 ;;;; spoiled.lisp -- a table of spoiled rule and grasp files, and all that is said of each.
 
 (in-package :supergrip-test)
-(in-suite all)
-
-(defparameter *good-rules*
-  "(RULE OBVIOUS
-  (IF (SMALL (s1 s2))
-      (CONSTRAINED (s1)))
-  (THEN (CANT GRASP IT)))
-(RULE FIND
-  (IF (OPPOSED (s1 s2))
-      (NOT CONSTRAINED (s1))
-      (NOT CONSTRAINED (s2)))
-  (THEN (REMEMBER PARALLEL (s1 s2))
-        (REMEMBER OBJECT HAS PARALLEL SURFACES)))
-(RULE ACROSS
-  (IF (PARALLEL (s1 s2)))
-  (THEN (TRY G (s1 s2 ? ? ? ?))))
-(RULE END
-  (IF (OBJECT HAS PARALLEL SURFACES))
-  (THEN (KEEP BEST)))
-")
-
-(defparameter *good-grasps*
-  "(SETQ GRIPPER
-  '(FINGER-LENGTH 3 FINGER-DIST 6 FINGER-SPREAD 2
-    FINGER-WIDTH 1 DIST-PINCH 12 WIDTH-HAND 8 SLIPPERY-U 0.1))
-(DEFUN HALF (x)
-  (/ x 2))
-(SETQ G
-  '(USED-SURFACES (N1 N2 A2)
-    CONDITIONS ((DIST '(N1 N2)) < DIST-PINCH)
-    OFFSET (LIST 0 0 0 0 0 0)
-    WRENCH (1 (* 2 u) (* 2 u)
-            (* 2 v)
-            (* u (DIST '(N1 N2)))
-            (* u (DIST '(N1 N2))))
-    TWIST (1 1 1 1 1 1)
-    CONTACTS ((N1 0 0) (N2 0 0))
-    PALM A2))
-")
+(define-suite spoiled "A table of spoiled rule and grasp files, and all that is said of each.")
 
 (defparameter *spoiled*
   '(

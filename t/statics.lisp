@@ -1,7 +1,8 @@
 ;;;; statics.lisp -- every WRENCH entry against a solver's, and what statics asks of all of them.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite statics
+  "Every WRENCH entry against a solver's, and what statics asks of all of them.")
 
 (defun shipped-grasp (name)
   (supergrip::find-grasp (supergrip::knowledge-graspbase supergrip:*knowledge*) name))

@@ -1,7 +1,7 @@
 ;;;; steps.lisp -- a step of TRY is one row, and why a candidate fails it is one, too.
 
 (in-package :supergrip-test)
-(in-suite all)
+(define-suite steps "A step of TRY is one row, and why a candidate fails it is one, too.")
 
 (test a-step-of-try-is-one-row
   (let ((supergrip::*steps* supergrip::*steps*))
