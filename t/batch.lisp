@@ -149,6 +149,17 @@
                (is (equal "grasp" (first (last statuses))))
                (is (= (if (char= (char text 0) #\[) 3 2) (length statuses)) "~a: ~s" text statuses)))))
 
+(test what-ends-a-box-too-early-is-told
+  (loop for (text report) in
+        `(("((SIZE 12 2 2)) (WEIGHT 0.2))"
+           "line 1, column 15: the box ends here; if more of it follows, there is one ) too many, here or earlier")
+          (,(format nil "(SETQ BOX '~a 7)" (one-line *pencil*))
+           "7 stands after the end of the box: a ) before it is one too many")
+          (,(format nil "[~a ~a]" *json-pencil* *json-pencil*)
+           "a comma is missing before this value"))
+        do (let ((reason (getf (first (last (answers text))) :reason)))
+             (is (search report reason) "~a gave ~a" text reason))))
+
 (test a-box-tells-some-of-its-problems
   (dolist (text (list (format nil "(~{(K~d 1)~})" (loop for i below 500 collect i))
                       (format nil "{~{\"k~d\": 1~^,~}}" (loop for i below 500 collect i))))

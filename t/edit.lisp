@@ -1,7 +1,7 @@
-;;;; edit.lisp -- tests of changing knowledge while at work.
+;;;; edit.lisp -- knowledge that is changed while at work, and what an edit has changed.
 
 (in-package :supergrip-test)
-(define-suite edit "Tests of changing knowledge while at work.")
+(define-suite edit "Knowledge that is changed while at work, and what an edit has changed.")
 
 (test continue-after-a-bad-edit-keeps-what-was
   (let ((before supergrip:*knowledge*))

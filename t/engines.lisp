@@ -49,7 +49,7 @@
       (let ((predicate (random-element predicates state)))
         `(remember ,@(sentence-of predicate (random-surfaces 3 variables state))))
       (let ((grasp (random-element (supergrip:knowledge-grasps supergrip:*knowledge*) state)))
-        `(try ,(make-symbol (supergrip::grasp-name grasp))
+        `(try ,(make-symbol (supergrip:grasp-name grasp))
               ,@(random-suggestion variables state)))))
 
 (defun random-rule (number predicates state)
@@ -143,7 +143,7 @@ order of predicates."
                        collect (supergrip:candidate-grasp candidate)
                        collect (supergrip:candidate-matching candidate)
                        collect (supergrip:candidate-quality candidate)))))
-    (not (equal (story (supergrip::plan box :knowledge knowledge))
+    (not (equal (story (supergrip:plan box :knowledge knowledge))
                 (story (supergrip::observed-plan (supergrip:parse-box box) knowledge 0.5d0
                                                  (constantly (constantly nil))))))))
 
@@ -158,11 +158,11 @@ order of predicates."
              (boxes (loop repeat 8 collect (random-box state))))
         (incf exchanging (length (exchanging-rules knowledge)))
         (dolist (box boxes)
-          (incf fired (length (log-facts (supergrip::plan box :knowledge knowledge)))))
+          (incf fired (length (log-facts (supergrip:plan box :knowledge knowledge)))))
         (is (null (first-fault
                    (lambda (box)
                      (or (plan-difference box knowledge oracle)
-                         (assertions-differ-p (supergrip::plan box :knowledge knowledge)
+                         (assertions-differ-p (supergrip:plan box :knowledge knowledge)
                                               box oracle)
                          (watched-run-differs-p box knowledge)))
                    boxes))
@@ -188,7 +188,7 @@ order of predicates."
                    (incf agreed)
                    (dolist (box boxes)
                      (dolist (candidate (supergrip:plan-candidates
-                                         (supergrip::plan box :knowledge knowledge)))
+                                         (supergrip:plan box :knowledge knowledge)))
                        (incf (getf outcomes (supergrip:candidate-outcome candidate) 0))))
                    (is (null (first-fault (lambda (box) (plan-difference box knowledge oracle))
                                           boxes))

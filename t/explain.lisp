@@ -1,7 +1,7 @@
-;;;; explain.lisp -- explanations, traces, breaks and edits.
+;;;; explain.lisp -- what HOW, WHY-NOT, EXPLAIN-BEST, descriptions, traces and breaks tell.
 
 (in-package :supergrip-test)
-(define-suite explain "Explanations, traces, breaks and edits.")
+(define-suite explain "What HOW, WHY-NOT, EXPLAIN-BEST, descriptions, traces and breaks tell.")
 
 ;;; HOW
 
@@ -36,6 +36,7 @@
         '(((paralel (y2 y1)) "(PARALEL (Y2 Y1)) is not a fact that could be known: nothing speaks of PARALEL (did you mean PARALLEL?); known are OPPOSED, SMALL, NARROW, LARGE, CONSTRAINED, SLIPPERY, PARALLEL, OBJECT HAS PARALLEL SURFACES, ADJACENT, OBJECT HAS ADJACENT SURFACES, CORNER, OBJECT HAS FREE CORNERS, WIDE")
           ((not parallel (y2 y1)) "(NOT PARALLEL (Y2 Y1)) is not a fact that could be known: ask about the sentence without NOT or NO")
           (parallel "PARALLEL is not a fact that could be known: a fact is a list, such as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)")
+          ((parallel 7) "(PARALLEL 7) is not a fact that could be known: 7 is not allowed in a fact")
           ((parallel (y2)) "(PARALLEL (Y2)) is not a fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2")
           ((parallel (y2 y3)) "(PARALLEL (Y2 Y3)) is not a fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2"))
         do (is (equal report (handler-case (supergrip:how form (pencil-plan))
@@ -174,7 +175,7 @@
 
 (defun how-fault (box)
   "Return a fact of the plan for BOX that the rules of its tree do not derive from its leaves."
-  (let ((plan (supergrip::plan box)))
+  (let ((plan (supergrip:plan box)))
     (dolist (fact (plan-facts plan))
       (let ((tree (supergrip:explain-fact fact plan))
             (memory (supergrip::new-memory (supergrip:plan-knowledge plan))))
@@ -201,9 +202,9 @@
 (test every-grasp-not-chosen-has-a-reason
   (is (null (first-fault
              (lambda (box)
-               (let ((plan (supergrip::plan box)))
+               (let ((plan (supergrip:plan box)))
                  (dolist (grasp (supergrip:knowledge-grasps supergrip:*knowledge*))
-                   (let* ((name (supergrip::grasp-name grasp))
+                   (let* ((name (supergrip:grasp-name grasp))
                           (answer (supergrip:explain-why-not name nil plan)))
                      (when (or (string= "" (supergrip:not-chosen-text answer))
                                (not (eq (eq :chosen (supergrip:not-chosen-kind answer))
@@ -241,7 +242,7 @@
                  (when (equal (supergrip:change-what change) (supergrip::value-name row index))
                    (return-from chosen
                      (supergrip::same-choice-p
-                      plan (supergrip::plan
+                      plan (supergrip:plan
                             (supergrip::box-with-at box row index
                                                  (coerce value 'double-float))))))))))
       (cond ((chosen back) (list text "does not change the choice"))
@@ -254,7 +255,7 @@
 (test what-must-change-does-change-the-choice
   (is (null (first-fault
              (lambda (box)
-               (let* ((plan (supergrip::plan box))
+               (let* ((plan (supergrip:plan box))
                       (changes (supergrip:choice-changes (supergrip:explain-choice plan)))
                       (sizes (mapcar #'supergrip::change-size changes)))
                  (or (loop for change in changes thereis (change-fault plan change))
@@ -373,7 +374,7 @@
 (test a-watched-run-is-the-same-plan
   (is (null (first-fault
              (lambda (box)
-               (not (equal (plan-figures (supergrip::plan box))
+               (not (equal (plan-figures (supergrip:plan box))
                            (plan-figures (supergrip::observed-plan
                                           box supergrip:*knowledge* 0.5d0
                                           (constantly (constantly nil)))))))

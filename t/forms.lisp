@@ -94,22 +94,22 @@
     (format t "~&   20000 extreme boxes, seed 41~%")
     (is (not (traps-matter-p (lambda ()
                                (loop for box in boxes
-                                     collect (plan-story (supergrip::plan box)))))))
+                                     collect (plan-story (supergrip:plan box)))))))
     (is (not (traps-matter-p (lambda ()
                                (loop for (box) on boxes by (lambda (list) (nthcdr 60 list))
-                                     collect (plan-texts (supergrip::plan box)))))))))
+                                     collect (plan-texts (supergrip:plan box)))))))))
 
 (test plans-do-not-depend-on-rounding
   ;; The modes are set for the plan alone: SBCL itself does not bear a trap for inexact numbers.
   (let ((state (sb-ext:seed-random-state 43)))
     (loop repeat 300
           do (let* ((box (supergrip:parse-box (random-box state)))
-                    (expected (plan-story (supergrip::plan box))))
+                    (expected (plan-story (supergrip:plan box))))
                (loop for modes in '((:traps (:underflow :inexact))
                                     (:traps () :rounding-mode :positive-infinity))
                      do (is (equal expected
                                    (plan-story (apply #'call-in-modes
-                                                      (lambda () (supergrip::plan box))
+                                                      (lambda () (supergrip:plan box))
                                                       modes)))
                             "~s ~s" box modes))))))
 
@@ -125,7 +125,7 @@
                  (incf count)
                  (flet ((stories ()
                           (loop for box in boxes
-                                collect (plan-story (supergrip::plan box :knowledge knowledge)))))
+                                collect (plan-story (supergrip:plan box :knowledge knowledge)))))
                    (loop for (nil outcome) in (reduce #'append (stories))
                          do (incf (getf outcomes outcome 0)))
                    (is (not (traps-matter-p #'stories)) "~s" forms)))))

@@ -1,7 +1,7 @@
-;;;; json.lisp -- tests of the JSON reader.
+;;;; json.lisp -- what JSON is read, what is refused, and with which words.
 
 (in-package :supergrip-test)
-(define-suite json "Tests of the JSON reader.")
+(define-suite json "What JSON is read, what is refused, and with which words.")
 
 (defun plain-json (value)
   "Return VALUE, as READ-JSON returns it, in lists: (:ARRAY ...), (:OBJECT (key . value) ...)."

@@ -58,7 +58,7 @@ TWIST (0.8 0.5 1 0.2 1 1)))"))
   (let ((printed (part-between (file-text "t/paper-listings.txt") "(RULE SURFACES1 SAYS PAR" "§ end")))
     (loop for (from to) in *session-repairs*
           do (setf printed (replace-once printed from to)))
-    (is (equal printed (transcript (supergrip::plan (paper-box)))))
+    (is (equal printed (transcript (supergrip:plan (paper-box)))))
     (is (equal printed (file-text "t/pencil-session.txt")))))
 
 (test the-printed-listing-is-a-valid-grasp-as-it-stands
@@ -101,7 +101,7 @@ TWIST (0.8 0.5 1 0.2 1 1)))"))
   ;; RECONSTRUCTION, section 5: the session binds FINGER-LENGTH and FINGER-DIST only jointly.
   (flet ((session (&rest dimensions)
            (transcript
-            (supergrip::plan (paper-box)
+            (supergrip:plan (paper-box)
                              :knowledge (supergrip::build-knowledge
                                          (supergrip::read-data-file
                                           (supergrip::shipped-file "rules.lisp"))

@@ -68,15 +68,15 @@ candidates."
                (is (equal first (reader-answers plan)))
                (spoil plan)
                (is (equal first (reader-answers plan))))))
-      (check (supergrip::plan (paper-box)))
+      (check (supergrip:plan (paper-box)))
       (check (supergrip:try-grasp "PINCH-3-PARALLEL" (paper-box)))
       (for-random-boxes (box 100 271828)
-        (check (supergrip::plan box))))))
+        (check (supergrip:plan box))))))
 
 ;;; Lifting
 
 (test the-axes-share-what-holds-the-weight
-  (let* ((plan (supergrip::plan '((size 12 2 2) (weight 0.75) (u 0.8) (v 0.2) (constrained z2 x1)
+  (let* ((plan (supergrip:plan '((size 12 2 2) (weight 0.75) (u 0.8) (v 0.2) (constrained z2 x1)
                                   (force-needed (1 0 0 0 0 0)) (velocity-needed (0 0 0 0 0 0)))))
          (heavy (find :lifting (supergrip:plan-candidates plan)
                       :key #'supergrip:candidate-outcome)))
@@ -91,7 +91,7 @@ candidates."
 
 (test what-is-possible-bears-its-load
   (for-random-boxes (box 1000 161803)
-    (let ((plan (supergrip::plan box)))
+    (let ((plan (supergrip:plan box)))
       (dolist (candidate (supergrip:plan-possible plan))
         (destructuring-bind (x y z) (supergrip:candidate-offset candidate)
           (declare (ignore z))

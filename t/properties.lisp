@@ -15,7 +15,7 @@
 
 (defun promise-fault (box)
   "Return what a possible grasp of BOX breaks, or NIL."
-  (let ((plan (supergrip::plan box))
+  (let ((plan (supergrip:plan box))
         (constrained (mapcar #'symbol-name (box-part box 'constrained)))
         (size (box-part box 'size))
         (weight (first (box-part box 'weight))))
@@ -71,8 +71,8 @@
                                        collect (cons key (if (eq key 'constrained)
                                                              (shuffle values state)
                                                              values)))))
-                   (not (equal (plan-figures (supergrip::plan box))
-                               (plan-figures (supergrip::plan shuffled))))))
+                   (not (equal (plan-figures (supergrip:plan box))
+                               (plan-figures (supergrip:plan shuffled))))))
                (random-boxes 10000 3))))))
 
 (defun turn-list (list matching)
@@ -130,15 +130,15 @@
 
 (test turning-the-problem-turns-the-answer
   (is (= 4 (length *turns-about-z*)))
-  (is (null (first-fault (lambda (box) (turn-fault box *rotations* #'supergrip::plan))
+  (is (null (first-fault (lambda (box) (turn-fault box *rotations* #'supergrip:plan))
                          (random-boxes 10000 4 :weight nil)))
       "no weight: all 24 rotations")
-  (is (null (first-fault (lambda (box) (turn-fault box *turns-about-z* #'supergrip::plan))
+  (is (null (first-fault (lambda (box) (turn-fault box *turns-about-z* #'supergrip:plan))
                          (random-boxes 10000 5)))
       "with weight: those about Z"))
 
 (test turning-the-problem-turns-every-grasp-tried-alone
-  (dolist (name (mapcar #'supergrip::grasp-name (supergrip:knowledge-grasps supergrip:*knowledge*)))
+  (dolist (name (mapcar #'supergrip:grasp-name (supergrip:knowledge-grasps supergrip:*knowledge*)))
     (flet ((try (box) (supergrip:try-grasp name box)))
       (is (null (first-fault (lambda (box) (turn-fault box *rotations* #'try))
                              (random-boxes 500 6 :weight nil)))
@@ -154,7 +154,7 @@
          (constrain (box face)
            (loop for (key . values) in box
                  collect (cons key (if (eq key 'constrained) (adjoin face values) values)))))
-    (dolist (name (mapcar #'supergrip::grasp-name
+    (dolist (name (mapcar #'supergrip:grasp-name
                           (supergrip:knowledge-grasps supergrip:*knowledge*)))
       (is (null (first-fault
                  (lambda (box)
@@ -166,10 +166,10 @@
           name))))
 
 (test a-task-of-one-kind-has-the-index-of-that-kind
-  (let ((force-only (supergrip::plan '((size 12 2 2) (weight 0.2d0) (u 0.8d0) (v 0.2d0)
+  (let ((force-only (supergrip:plan '((size 12 2 2) (weight 0.2d0) (u 0.8d0) (v 0.2d0)
                                        (constrained z2 x1) (force-needed (1 0 0 0 0 0))
                                        (velocity-needed (0 0 0 0 0 0)))))
-        (velocity-only (supergrip::plan '((size 12 2 2) (weight 0.2d0) (u 0.8d0) (v 0.2d0)
+        (velocity-only (supergrip:plan '((size 12 2 2) (weight 0.2d0) (u 0.8d0) (v 0.2d0)
                                           (constrained z2 x1) (force-needed (0 0 0 0 0 0))
                                           (velocity-needed (0 1 0 0 0 0))))))
     (let ((best (supergrip:plan-best force-only)))
@@ -180,14 +180,14 @@
       (is (null (supergrip:candidate-force-axis best))))))
 
 (test gamma-weighs-velocities-against-forces
-  (flet ((best (gamma) (supergrip:plan-best (supergrip::plan (paper-box) :gamma gamma))))
+  (flet ((best (gamma) (supergrip:plan-best (supergrip:plan (paper-box) :gamma gamma))))
     (is (close-to (supergrip:candidate-quality (best 1)) (supergrip:candidate-velocity-radius (best 1))))
     (is (close-to (supergrip:candidate-quality (best 0)) (supergrip:candidate-force-radius (best 0))))
     (is (close-to (supergrip:candidate-quality (best 1/4))
                   (+ (* 1/4 (supergrip:candidate-velocity-radius (best 1/4)))
                      (* 3/4 (supergrip:candidate-force-radius (best 1/4)))))))
   (dolist (gamma '(-0.1 2 "half" nil))
-    (signals supergrip:gamma-error (supergrip::plan (paper-box) :gamma gamma))))
+    (signals supergrip:gamma-error (supergrip:plan (paper-box) :gamma gamma))))
 
 (defun plain-nearest (candidates plan)
   "Return the nearest miss among CANDIDATES of PLAN, from its definition: each is looked at in full."
@@ -221,7 +221,7 @@
   (let ((state (sb-ext:seed-random-state 77)))
     (is (null (first-fault
                (lambda (box)
-                 (handler-case (let ((plan (supergrip::plan box)))
+                 (handler-case (let ((plan (supergrip:plan box)))
                                  (supergrip:write-transcript plan (make-broadcast-stream))
                                  (dolist (candidate (supergrip:plan-rejected plan))
                                    (supergrip:candidate-failure candidate plan))
@@ -231,11 +231,11 @@
 
 (test plans-are-the-same-in-several-threads
   (let* ((boxes (random-boxes 400 9))
-         (alone (mapcar (lambda (box) (plan-figures (supergrip::plan box))) boxes))
+         (alone (mapcar (lambda (box) (plan-figures (supergrip:plan box))) boxes))
          (threads (loop repeat 4
                         collect (sb-thread:make-thread
                                  (lambda ()
-                                   (mapcar (lambda (box) (plan-figures (supergrip::plan box)))
+                                   (mapcar (lambda (box) (plan-figures (supergrip:plan box)))
                                            boxes))))))
     (dolist (thread threads)
       (is (equal alone (sb-thread:join-thread thread))))))

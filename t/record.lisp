@@ -1,7 +1,7 @@
-;;;; record.lisp -- tests of records: what they say, and that both notations say the same.
+;;;; record.lisp -- what a record says, and that both notations say the same.
 
 (in-package :supergrip-test)
-(define-suite record "Tests of records: what they say, and that both notations say the same.")
+(define-suite record "What a record says, and that both notations say the same.")
 
 (defun written (record writer)
   "Return what WRITER, a function, writes for RECORD."

@@ -1,7 +1,7 @@
-;;;; repl.lisp -- tests of typing at the REPL: what is taken, and what is left to the user.
+;;;; repl.lisp -- what may be typed at the REPL, and what is left to the user.
 
 (in-package :supergrip-test)
-(define-suite repl "Tests of typing at the REPL: what is taken, and what is left to the user.")
+(define-suite repl "What may be typed at the REPL, and what is left to the user.")
 
 (defpackage :supergrip-test-user
   (:use :cl :supergrip)
@@ -95,7 +95,7 @@
 
 (test arguments-that-can-not-be-used-are-told-of
   (let ((supergrip::*breaks* '()) (supergrip::*traced* '())
-        (plan (supergrip::plan (paper-box))))
+        (plan (supergrip:plan (paper-box))))
     (loop for (text function . arguments) in
           `(("RULES is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :STREAM, :TRACE, :STEP"
              supergrip:forward-chain :box ,(paper-box) rules 3)
@@ -126,7 +126,7 @@
     (is (null (supergrip:unbreak '(corner ("Y2" x2 :z1)))))))
 
 (test questions-at-a-stop-are-about-the-run-in-hand
-  (let ((supergrip:*plan* (supergrip::plan (plan-box-too-heavy)))
+  (let ((supergrip:*plan* (supergrip:plan (plan-box-too-heavy)))
         (supergrip::*breaks* '())
         (answers '()))
     (supergrip:break-on 'grip4)

@@ -123,7 +123,7 @@
 
 (test every-grasp-is-best-on-some-box
   (loop for (grasp size u constrained force velocity) in *best-cases*
-        do (let ((plan (supergrip::plan `((size ,@size) (weight 0.05d0) (u ,u) (v 0.2d0)
+        do (let ((plan (supergrip:plan `((size ,@size) (weight 0.05d0) (u ,u) (v 0.2d0)
                                           (constrained ,@constrained) (force-needed ,force)
                                           (velocity-needed ,velocity)))))
              (is (equal grasp (supergrip:plan-grasp plan)) "~a: ~a~%~s" grasp plan
@@ -140,7 +140,7 @@
                         (when (and (eq what :bindings) (second arguments))
                           (pushnew (supergrip-chainer:rule-name (first arguments)) fired
                                    :test #'string=))))))
-             (stop (supergrip::plan-stop plan)))
+             (stop (supergrip:plan-stop plan)))
         (cond ((null stop) (push (list box "no rule ends the run") faults))
               ((and (member (supergrip-chainer:rule-name (supergrip-chainer:stop-rule stop))
                             '("GRIP1" "GRIP2" "GRIP3") :test #'string=)

@@ -3,23 +3,33 @@
 (in-package :supergrip-test)
 (define-suite scripts "What a user starts, run as processes of their own.")
 
+(defun call-with-cold-cache (function)
+  "Call FUNCTION with the name of a directory that is not there; remove what it has made of it."
+  (uiop:with-temporary-file (:pathname file :keep nil)
+    (let ((cache (uiop:ensure-directory-pathname
+                  (format nil "~a-cache" (uiop:native-namestring file)))))
+      (unwind-protect (funcall function (uiop:native-namestring cache))
+        (uiop:delete-directory-tree cache :validate t :if-does-not-exist :ignore)))))
+
+(defun check-session (name directory environment)
+  "Check that the session NAME of the pencil, run in DIRECTORY with ENVIRONMENT, is the paper's."
+  (multiple-value-bind (status output errors)
+      (run-process (script "examples/pencil.lisp") :directory directory :environment environment)
+    (is (eql 0 status) name)
+    (is (equal (file-text "t/pencil-session.txt") output) name)
+    (is (equal "" errors) name)))
+
 (test the-pencil-session-prints-wherever-it-runs
-  (let ((session (file-text "t/pencil-session.txt")))
-    (uiop:with-temporary-file (:pathname file :keep nil)
-      (let ((cold (format nil "XDG_CACHE_HOME=~a-cache" (uiop:native-namestring file))))
-        (loop for (name directory . environment) in
-              `(("as usual" nil)
-                ("from another directory" "/")
-                ("with a cold cache" nil ,cold)
-                ("without HOME" nil "-u" "HOME")
-                ("without a cache that can be made" nil "XDG_CACHE_HOME=/dev/null/cache")
-                ("with HOME nowhere" nil "HOME=/nonexistent" "XDG_CACHE_HOME="))
-              do (multiple-value-bind (status output errors)
-                     (run-process (script "examples/pencil.lisp") :directory directory
-                                                                  :environment environment)
-                   (is (eql 0 status) name)
-                   (is (equal session output) name)
-                   (is (equal "" errors) name)))))))
+  (call-with-cold-cache
+   (lambda (cold)
+     (loop for (name directory . environment) in
+           `(("as usual" nil)
+             ("from another directory" "/")
+             ("with a cold cache" nil ,(format nil "XDG_CACHE_HOME=~a" cold))
+             ("without HOME" nil "-u" "HOME")
+             ("without a cache that can be made" nil "XDG_CACHE_HOME=/dev/null/cache")
+             ("with HOME nowhere" nil "HOME=/nonexistent" "XDG_CACHE_HOME="))
+           do (check-session name directory environment)))))
 
 (test every-example-runs-and-ends
   (let ((examples (remove-if (lambda (name)

@@ -123,7 +123,7 @@ Nothing is offset there, so the hand's reach must be no limit."
           (let* ((size (loop repeat 3 collect (random-between 0.6d0 20d0 state)))
                  (u (random 2d0 state)) (v (random 0.5d0 state))
                  (more-u (+ u (random 1d0 state))) (more-v (+ v (random 0.5d0 state)))
-                 (name (supergrip::grasp-name grasp)))
+                 (name (supergrip:grasp-name grasp)))
             (flet ((entries (u v) (wrench-entries graspbase name size u v)))
               (loop for less in (append (entries u v) (entries u v))
                     for more in (append (entries more-u v) (entries u more-v))
@@ -134,7 +134,7 @@ Nothing is offset there, so the hand's reach must be no limit."
   (let ((graspbase (supergrip::knowledge-graspbase supergrip:*knowledge*)))
     (dolist (grasp (supergrip:knowledge-grasps supergrip:*knowledge*))
       (loop for (u v) in '((0d0 0d0) (0d0 0.3d0) (0.5d0 0d0) (2d0 0d0))
-            do (finishes (wrench-entries graspbase (supergrip::grasp-name grasp)
+            do (finishes (wrench-entries graspbase (supergrip:grasp-name grasp)
                                          '(3d0 4d0 5d0) u v))))))
 
 (test conditions-know-what-friction-can-not-close

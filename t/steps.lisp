@@ -14,7 +14,7 @@
       :why (format nil "~a has cold fingers" (supergrip:candidate-grasp candidate))
       :shortfalls '(1/2))
     (unwind-protect
-         (let* ((plan (supergrip::plan (paper-box)))
+         (let* ((plan (supergrip:plan (paper-box)))
                 (cold (find :cold (supergrip:plan-candidates plan)
                             :key #'supergrip:candidate-outcome)))
            (is (equal "PINCH-3-U-SHAPE" (supergrip:plan-grasp plan)))

@@ -116,11 +116,11 @@ pairs of what the scan has and what is read."
 
 ;;; Plans
 
-(defun pencil-plan () (supergrip::plan (paper-box)))
+(defun pencil-plan () (supergrip:plan (paper-box)))
 
 (defun plan-of (size u constrained &key (weight 0.05d0) (force '(1 1 1 0.5d0 0.5d0 0.5d0))
                                      (velocity '(0 0 0 0 0 0)))
-  (supergrip::plan `((size ,@size) (weight ,weight) (u ,u) (v 0.2d0) (constrained ,@constrained)
+  (supergrip:plan `((size ,@size) (weight ,weight) (u ,u) (v 0.2d0) (constrained ,@constrained)
                      (force-needed ,force) (velocity-needed ,velocity))))
 
 (defun why-not-line (plan grasp &optional matching)
@@ -428,7 +428,7 @@ Half of the boxes are of a size that a hand can hold."
 
 (defun log-facts (plan)
   "Return what the rules of PLAN remembered, as the oracle has it."
-  (let ((rulebase (supergrip::knowledge-rulebase (supergrip:plan-knowledge plan))))
+  (let ((rulebase (supergrip:knowledge-rulebase (supergrip:plan-knowledge plan))))
     (loop for event in (supergrip:plan-log plan)
           unless (supergrip::candidate-p event)
             collect (multiple-value-bind (predicate face-list)
@@ -468,7 +468,7 @@ Half of the boxes are of a size that a hand can hold."
 
 (defun plan-difference (box &optional (knowledge supergrip:*knowledge*) (definitions *oracle*))
   "Return what of the plan for BOX by KNOWLEDGE differs from the DEFINITIONS, or NIL."
-  (let* ((plan (supergrip::plan box :knowledge knowledge))
+  (let* ((plan (supergrip:plan box :knowledge knowledge))
          (oracle (supergrip-oracle:oracle-plan box definitions))
          (best (getf oracle :best))
          (candidates (supergrip:plan-candidates plan)))
