@@ -220,7 +220,35 @@ to the project, if they are in one of *DIRECTORIES*."
            append (loop for rest in (texts-between (format nil "`~a" directory) #\` text)
                         for name = (concatenate 'string directory rest)
                         unless (find-if (lambda (c) (find c " *{<")) name)
-                          collect (project-file name))))))
+                          collect (project-file name)))
+     (loop for (room) in (rooms)
+           append (loop for name in (texts-between (format nil "`~a/" room) #\` text)
+                        unless (string= name "")
+                          collect (project-file (format nil "src/~a/~a" room name)))))))
+
+;;; The house
+
+(defun component-files (component)
+  "Return the names of the Lisp files of COMPONENT, packages apart, in the order of loading."
+  (loop for child in (asdf:component-children component)
+        for name = (asdf:component-name child)
+        when (and (typep child 'asdf:cl-source-file) (string/= name "package"))
+          collect name))
+
+(defun rooms ()
+  "Return a list of (ROOM . FILES), strings, as the systems have them."
+  (append (loop for system in '("supergrip/chainer" "supergrip" "supergrip/batch")
+                append (loop for room in (asdf:component-children (asdf:find-system system))
+                             when (typep room 'asdf:module)
+                               collect (cons (asdf:component-name room) (component-files room))))
+          (list (cons "draw" (component-files (asdf:find-system "supergrip/draw"))))))
+
+(test the-page-on-the-house-lists-every-file
+  (let ((lines (lines-of (file-text "docs/development.md"))))
+    (loop for (room . files) in (rooms)
+          for start = (format nil "| `~a/` |" room)
+          for row = (find-if (lambda (line) (eql 0 (search start line))) lines)
+          do (is (search (format nil "| ~{~a~^, ~} |" files) row) "~a: ~{~a~^, ~}" room files))))
 
 (test documents-name-files-that-are-there
   (dolist (document (documents))

@@ -1,4 +1,4 @@
-;;;; explanation.lisp -- what all answers have in common.
+;;;; answers.lisp -- what all answers have in common.
 ;;;;
 ;;;; Each answer is an object; WRITE-ANSWER prints it.
 

@@ -1,4 +1,4 @@
-;;;; output.lisp -- text and numbers as UTF-8 in a buffer, written when the buffer is full.
+;;;; output-buffer.lisp -- text and numbers as UTF-8 in a buffer, written when the buffer is full.
 
 (in-package :supergrip)
 

@@ -1,4 +1,4 @@
-;;;; programs.lisp -- trees of nodes become chains of closures.
+;;;; compile-forms.lisp -- trees of nodes become chains of closures.
 ;;;;
 ;;;; A program is the first closure of a chain.  Called with the registers, each writes one number
 ;;;; and calls the next; a comparison calls one of two.  The last returns true.  A test that is

@@ -1,4 +1,4 @@
-;;;; grasps.lisp -- the grasp file: helper functions and grasps, checked.
+;;;; read-grasps.lisp -- the grasp file: helper functions and grasps, checked.
 
 (in-package :supergrip)
 

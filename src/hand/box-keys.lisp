@@ -1,4 +1,4 @@
-;;;; keys.lisp -- the keys of a box description, one row each.
+;;;; box-keys.lisp -- the keys of a box description, one row each.
 ;;;;
 ;;;; A row says what a key takes.  Parsing, both notations, messages and what EXPLAIN-BEST varies follow
 ;;;; from it.

@@ -1,4 +1,4 @@
-;;;; failure.lisp -- why a candidate failed, and why a box can't be grasped, with the figures.
+;;;; failures.lisp -- why a candidate failed, and why a box can't be grasped, with the figures.
 
 (in-package :supergrip)
 

@@ -1,4 +1,4 @@
-;;;; plain.lisp -- text that is the same whatever the user's printer is set to.
+;;;; printer-settings.lisp -- text that is the same whatever the user's printer is set to.
 
 (in-package :supergrip-data)
 

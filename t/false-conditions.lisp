@@ -1,4 +1,4 @@
-;;;; misses.lisp -- the nearest miss: what is false of it, how far off, in words.
+;;;; false-conditions.lisp -- the nearest miss: what is false of it, how far off, in words.
 
 (in-package :supergrip-test)
 (define-suite misses "The nearest miss: what is false of it, how far off, in words.")

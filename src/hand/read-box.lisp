@@ -1,4 +1,4 @@
-;;;; description.lisp -- the description of a box, checked, becomes a box.
+;;;; read-box.lisp -- the description of a box, checked, becomes a box.
 
 (in-package :supergrip)
 

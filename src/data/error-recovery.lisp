@@ -1,4 +1,4 @@
-;;;; skip.lisp -- going on after an error in a record.
+;;;; error-recovery.lisp -- going on after an error in a record.
 
 (in-package :supergrip-data)
 

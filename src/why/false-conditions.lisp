@@ -1,4 +1,4 @@
-;;;; misses.lisp -- which parts of a grasp's conditions are false, and by how much, in words.
+;;;; false-conditions.lisp -- which parts of a grasp's conditions are false, and by how much, in words.
 
 (in-package :supergrip)
 

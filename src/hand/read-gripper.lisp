@@ -1,4 +1,4 @@
-;;;; gripper.lisp -- the gripper's dimensions are checked; the numbers stand in grasps.lisp, (SETQ GRIPPER ...).
+;;;; read-gripper.lisp -- the gripper's dimensions are checked; the numbers stand in grasps.lisp, (SETQ GRIPPER ...).
 
 (in-package :supergrip)
 

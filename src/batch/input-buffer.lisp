@@ -1,4 +1,4 @@
-;;;; input.lisp -- the characters of a descriptor, as soon as they are there, for the data reader.
+;;;; input-buffer.lisp -- the characters of a descriptor, as soon as they are there, for the data reader.
 ;;;;
 ;;;; Octets are decoded as UTF-8; what is not UTF-8 becomes U+FFFD.  The reader gets them in
 ;;;; pieces that end where a line that starts a record begins: a record that is still open there

@@ -1,4 +1,4 @@
-;;;; inputs.lisp -- the preliminary assertions: what is known of a box before any rule runs.
+;;;; preliminary-assertions.lisp -- the preliminary assertions: what is known of a box before any rule runs.
 ;;;;
 ;;;; One row each.  The rule base, the checker, HOW and WHY-NOT follow from the rows.
 

@@ -1,4 +1,4 @@
-;;;; places.lisp -- the parts of a picture on which no word may be put.
+;;;; occupied-places.lisp -- the parts of a picture on which no word may be put.
 
 (in-package :supergrip-draw)
 

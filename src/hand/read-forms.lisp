@@ -1,7 +1,7 @@
-;;;; forms.lisp -- the forms of the grasp file are checked and become trees of nodes.
+;;;; read-forms.lisp -- the forms of the grasp file are checked and become trees of nodes.
 ;;;;
 ;;;; The first of two stages: every operator, name and count is checked here, constants are computed,
-;;;; and helper functions are opened up.  programs.lisp turns the trees into closures.
+;;;; and helper functions are opened up.  compile-forms.lisp turns the trees into closures.
 ;;;;
 ;;;; A form gives a number, six numbers, or is true or false.  What may stand first in one is a row:
 ;;;; of operators.lisp, or a DEFINE-FORM here.

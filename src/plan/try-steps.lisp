@@ -1,4 +1,4 @@
-;;;; steps.lisp -- the steps through which TRY takes a candidate: a grasp in one matching.
+;;;; try-steps.lisp -- the steps through which TRY takes a candidate: a grasp in one matching.
 ;;;;
 ;;;; Grasping conditions, offset, positions of the fingers, wrench and twist rotated to X Y Z,
 ;;;; lifting, quality.  A candidate that passes is possible; one that fails records the step that it failed.
@@ -65,7 +65,7 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   (fill (workspace-tried workspace) 0)
   workspace)
 
-;;; The table.  Why a candidate failed a step, and by how much, is told in why/failure.lisp, one row each.
+;;; The table.  Why a candidate failed a step, and by how much, is told in why/failures.lisp, one row each.
 
 (defstruct (try-step (:constructor make-try-step (outcome name test)))
   "A step of TRY.  OUTCOME is what a candidate that fails it has; TEST, a function of the candidate and

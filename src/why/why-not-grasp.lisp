@@ -1,4 +1,4 @@
-;;;; not-chosen.lisp -- why a grasp was not chosen.
+;;;; why-not-grasp.lisp -- why a grasp was not chosen.
 
 (in-package :supergrip)
 

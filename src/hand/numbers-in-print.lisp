@@ -1,4 +1,4 @@
-;;;; words.lisp -- numbers in print, each with as many digits as its sentence needs.
+;;;; numbers-in-print.lisp -- numbers in print, each with as many digits as its sentence needs.
 
 (in-package :supergrip)
 

@@ -1,4 +1,4 @@
-;;;; notation.lisp -- a box description in JSON becomes the paper's list; messages quote it as JSON.
+;;;; json-boxes.lisp -- a box description in JSON becomes the paper's list; messages quote it as JSON.
 
 (in-package :supergrip)
 

@@ -1,4 +1,4 @@
-;;;; steps.lisp -- a step of TRY is one row, and why a candidate fails it is one, too.
+;;;; try-steps.lisp -- a step of TRY is one row, and why a candidate fails it is one, too.
 
 (in-package :supergrip-test)
 (define-suite steps "A step of TRY is one row, and why a candidate fails it is one, too.")

@@ -1,22 +1,10 @@
-;;;; rules.lisp -- a rule is read from its form, and checked.
-;;;;
-;;;; What an action is stands here (DEFINE-ACTION); REMEMBER and CANT are defined in run.lisp, TRY and
-;;;; KEEP in plan/try.lisp.
+;;;; read-rules.lisp -- a rule is read from its form, and checked.
 
 (in-package :supergrip-chainer)
 
 (defstruct clause
   "One clause of an antecedent.  TERMS are variables and faces (see TERM-VALUE)."
   (negated nil) (predicate nil) (terms '() :type list) (form nil))
-
-(defstruct action
-  "One action of a consequent.  VERB is its first word, a string, OPERANDS the rest of FORM.
-FUNCTION is called with a memory and a binding; it returns NIL, or a STOP to end the run.  ONCE is
-true if no binding after the first makes a difference.  PREDICATE and TERMS are what it remembers,
-TARGET what else it names, if anything."
-  (verb "" :type string) (operands '()) (form nil)
-  (function nil :type (or null function)) (once nil)
-  (predicate nil) (terms '() :type list) (target nil))
 
 (defstruct rule
   "A rule.  COMMENT is the list of the lines before it in its file.  VARIABLES are the names of its
@@ -203,77 +191,18 @@ the last perhaps a list of surfaces.  Returns NIL after a complaint."
                          (make-clause :negated (or not-p (plusp no-count)) :predicate predicate
                                       :terms terms :form form)))))))))
 
-(defun surface-list-p (list)
-  (every (lambda (element) (and (namep element)
-                                (or (face-index element) (variable-name-p element))))
-         list))
-
-;;; Actions
-
-(defvar *action-verbs* '() "The verbs that DEFINE-ACTION has defined.")
-
-(defun action-verbs ()
-  "Return the verbs that actions may begin with, as strings, in the order of their definition."
-  *action-verbs*)
-
-(defgeneric compile-action (verb action rulebase)
-  (:documentation "Fill ACTION, the FUNCTION at least, for its VERB, a keyword; complain of what is
-wrong in it.  This is where an action is attached: DEFINE-ACTION adds a method.")
-  (:method (verb action rulebase)
-    (declare (ignore rulebase))
-    (complain (action-form action) "~a is not an action; actions are ~{~a~^, ~}~a" verb
-              (action-verbs) (suggestion (string verb) (action-verbs)))))
-
 (defun sentence-text (words surfaces)
   "Return a sentence in words: \"S1 and S2 are PARALLEL\", \"OBJECT HAS FREE CORNERS\"."
   (if surfaces
       (format nil "~{~a~#[~; and ~:;, ~]~} ~:[is~;are~] ~a" surfaces (rest surfaces) words)
       words))
 
-;;; What else is known of an action.  By default, nothing; a verb adds methods.
+(defun surface-list-p (list)
+  (every (lambda (element) (and (namep element)
+                                (or (face-index element) (variable-name-p element))))
+         list))
 
-(defgeneric action-conclusion (verb operands)
-  (:documentation "Return the sentence that an action VERB, a keyword, of OPERANDS remembers, or NIL.")
-  (:method (verb operands)
-    (declare (ignore verb operands))
-    nil))
-
-(defgeneric action-mentions (verb operands)
-  (:documentation "Return the names, symbols, of what an action VERB of OPERANDS uses of the lower
-level, as the grasp that it tries.")
-  (:method (verb operands)
-    (declare (ignore verb operands))
-    '()))
-
-(defgeneric symmetric-action-p (verb action a b)
-  (:documentation "True if ACTION does the same after the variables A and B were exchanged.")
-  (:method (verb action a b)
-    (declare (ignore verb a b))
-    (action-once action)))
-
-(defgeneric describe-action (verb action)
-  (:documentation "Return what ACTION does, in words.")
-  (:method (verb action)
-    (declare (ignore verb))
-    (form-text (action-form action))))
-
-(defun verb-key (verb)
-  "Return the keyword that VERB, a name or a string, stands for in the methods above; or VERB itself if
-no action has it."
-  (or (find-symbol (string verb) :keyword) verb))
-
-(defun adjoin-last (verb verbs)
-  (if (member verb verbs :test #'string=) verbs (append verbs (list verb))))
-
-(defmacro define-action (verb (action rulebase) &body body)
-  "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, complains of what
-is wrong, and stores the ACTION-FUNCTION.  That must not keep the memory that it is called with,
-which serves other runs, too; and it may be called again when a question about the run is asked."
-  `(progn
-     (setf *action-verbs* (adjoin-last ,(symbol-name verb) *action-verbs*))
-     (defmethod compile-action ((verb (eql ,verb)) ,action ,rulebase)
-       (declare (ignorable ,rulebase))
-       ,@body)))
+;;; Actions
 
 (defun parse-action (form)
   "Return the action that FORM spells, or NIL after a complaint."

@@ -1,4 +1,4 @@
-;;;; keys.lisp -- a key of a box is one row, in both notations.
+;;;; box-keys.lisp -- a key of a box is one row, in both notations.
 
 (in-package :supergrip-test)
 (define-suite keys "A key of a box is one row, in both notations.")

@@ -1,4 +1,4 @@
-;;;; check.lisp -- warnings: what is well formed in a rule base, but almost certainly a mistake.
+;;;; check-rules.lisp -- warnings: what is well formed in a rule base, but almost certainly a mistake.
 ;;;;
 ;;;; A misspelt predicate is not an error to a chainer: under the closed-world assumption it is just
 ;;;; never true.  So every sentence is followed from the rules that derive it to those that test it.

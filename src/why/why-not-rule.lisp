@@ -1,4 +1,4 @@
-;;;; refusal.lisp -- why a rule did not fire, or did not say a fact.
+;;;; why-not-rule.lisp -- why a rule did not fire, or did not say a fact.
 
 (in-package :supergrip)
 

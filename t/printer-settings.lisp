@@ -1,4 +1,4 @@
-;;;; plain.lisp -- texts whatever the printer is set to, names in any form, bounded answers.
+;;;; printer-settings.lisp -- texts whatever the printer is set to, names in any form, bounded answers.
 
 (in-package :supergrip-test)
 (define-suite plain "Texts whatever the printer is set to, names in any form, bounded answers.")

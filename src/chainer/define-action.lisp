@@ -1,0 +1,73 @@
+;;;; define-action.lisp -- what an action of a rule is: DEFINE-ACTION, and what a verb tells of itself.
+;;;;
+;;;; REMEMBER and CANT are defined in actions.lisp; TRY and KEEP in plan/actions.lisp.
+
+(in-package :supergrip-chainer)
+
+(defstruct action
+  "One action of a consequent.  VERB is its first word, a string, OPERANDS the rest of FORM.
+FUNCTION is called with a memory and a binding; it returns NIL, or a STOP to end the run.  ONCE is
+true if no binding after the first makes a difference.  PREDICATE and TERMS are what it remembers,
+TARGET what else it names, if anything."
+  (verb "" :type string) (operands '()) (form nil)
+  (function nil :type (or null function)) (once nil)
+  (predicate nil) (terms '() :type list) (target nil))
+
+(defvar *action-verbs* '() "The verbs that DEFINE-ACTION has defined.")
+
+(defun action-verbs ()
+  "Return the verbs that actions may begin with, as strings, in the order of their definition."
+  *action-verbs*)
+
+(defgeneric compile-action (verb action rulebase)
+  (:documentation "Fill ACTION, the FUNCTION at least, for its VERB, a keyword; complain of what is
+wrong in it.  This is where an action is attached: DEFINE-ACTION adds a method.")
+  (:method (verb action rulebase)
+    (declare (ignore rulebase))
+    (complain (action-form action) "~a is not an action; actions are ~{~a~^, ~}~a" verb
+              (action-verbs) (suggestion (string verb) (action-verbs)))))
+
+;;; What else is known of an action.  By default, nothing; a verb adds methods.
+
+(defgeneric action-conclusion (verb operands)
+  (:documentation "Return the sentence that an action VERB, a keyword, of OPERANDS remembers, or NIL.")
+  (:method (verb operands)
+    (declare (ignore verb operands))
+    nil))
+
+(defgeneric action-mentions (verb operands)
+  (:documentation "Return the names, symbols, of what an action VERB of OPERANDS uses of the lower
+level, as the grasp that it tries.")
+  (:method (verb operands)
+    (declare (ignore verb operands))
+    '()))
+
+(defgeneric symmetric-action-p (verb action a b)
+  (:documentation "True if ACTION does the same after the variables A and B were exchanged.")
+  (:method (verb action a b)
+    (declare (ignore verb a b))
+    (action-once action)))
+
+(defgeneric describe-action (verb action)
+  (:documentation "Return what ACTION does, in words.")
+  (:method (verb action)
+    (declare (ignore verb))
+    (form-text (action-form action))))
+
+(defun verb-key (verb)
+  "Return the keyword that VERB, a name or a string, stands for in the methods above; or VERB itself if
+no action has it."
+  (or (find-symbol (string verb) :keyword) verb))
+
+(defun adjoin-last (verb verbs)
+  (if (member verb verbs :test #'string=) verbs (append verbs (list verb))))
+
+(defmacro define-action (verb (action rulebase) &body body)
+  "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, complains of what
+is wrong, and stores the ACTION-FUNCTION.  That must not keep the memory that it is called with,
+which serves other runs, too; and it may be called again when a question about the run is asked."
+  `(progn
+     (setf *action-verbs* (adjoin-last ,(symbol-name verb) *action-verbs*))
+     (defmethod compile-action ((verb (eql ,verb)) ,action ,rulebase)
+       (declare (ignorable ,rulebase))
+       ,@body)))

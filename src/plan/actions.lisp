@@ -1,0 +1,99 @@
+;;;; actions.lisp -- the actions TRY and KEEP, which attach the grasps to the rules.
+
+(in-package :supergrip)
+
+(defun constant-matchings (terms)
+  "Return the set of the matchings that give the grasp-faces the faces among TERMS, six of them, NIL for
+any."
+  (reduce #'logand (loop for term in terms
+                         for grasp-face from 0
+                         when (and term (not (term-variable-p term)))
+                           collect (aref +matchings-with+ grasp-face (term-value term 0)))
+          :initial-value +all-matchings+))
+
+(defun variable-faces (terms)
+  "Return a list of (GRASP-FACE . TERM) for those of TERMS, six, that are variables."
+  (loop for term in terms
+        for grasp-face from 0
+        when (and term (term-variable-p term)) collect (cons grasp-face term)))
+
+(defun suggested-matchings (set grasp-faces binding)
+  "Return those of the matchings SET that give GRASP-FACES, a list of (GRASP-FACE . VARIABLE), the faces that the
+variables have under BINDING."
+  (declare (type matching-set set))
+  (loop for (grasp-face . variable) of-type ((integer 0 5) . (integer 0 5)) in grasp-faces
+        do (setf set (logand set (aref +matchings-with+ grasp-face (term-value variable binding)))))
+  set)
+
+(defun parse-suggestion (operands action)
+  "Return the terms of the suggested matching in OPERANDS, NIL for each that is ?; or complain, and
+return true as the second value."
+  (let ((list (first operands)))
+    (cond ((null operands) '())
+          ((or (rest operands) (not (consp list)) (/= (length list) 6))
+           (when (consp list)
+             (parse-surfaces (remove-if (lambda (element) (name= element "?")) list) nil))
+           (complain (action-form action) "a suggested matching is one list of six, for N1 N2 O1 ~
+                                           O2 A1 A2, with ? for any: (? s3 s1 s2 ? s4)")
+           (values nil t))
+          (t
+           (multiple-value-bind (terms bad)
+               (parse-surfaces (remove-if (lambda (element) (name= element "?")) list) nil)
+             (if bad
+                 (values nil t)
+                 (loop for element in list
+                       collect (if (name= element "?") nil (pop terms)))))))))
+
+(defun compile-try (action grasp)
+  "Make ACTION try GRASP, if its suggestion is good."
+  (multiple-value-bind (terms bad) (parse-suggestion (rest (action-operands action)) action)
+    (unless bad
+      (when (zerop (constant-matchings terms))
+        (complain (action-form action) '(:warning "no matching has these faces in these places: N O ~
+                                                   A is a proper rotation of X Y Z")))
+      (setf (action-target action) grasp
+            (action-terms action) terms
+            (action-function action)
+            (let ((set (constant-matchings terms))
+                  (grasp-faces (variable-faces terms)))
+              (lambda (memory binding)
+                (try-matchings memory grasp (suggested-matchings set grasp-faces binding))
+                nil))))))
+
+(defmethod action-mentions ((verb (eql :try)) operands)
+  (and (consp operands) (namep (first operands)) (list (first operands))))
+
+(defmethod describe-action ((verb (eql :try)) action)
+  (destructuring-bind (grasp &optional suggestion) (action-operands action)
+    (format nil "try ~a~@[ with ~{~a~^, ~}~]" grasp
+            (loop for element in suggestion
+                  for grasp-face across +grasp-faces+
+                  unless (name= element "?") collect (format nil "~a = ~a" grasp-face element)))))
+
+(define-action :try (action rulebase)
+  (let* ((name (first (action-operands action)))
+         (graspbase (rulebase-client rulebase))
+         (grasp (and (namep name) (find-grasp graspbase (symbol-name name)))))
+    (unless grasp
+      (parse-suggestion (rest (action-operands action)) action))
+    (cond (grasp (compile-try action grasp))
+          ((not (namep name))
+           (complain (action-form action) "TRY names a grasp, such as (TRY PINCH-3-PARALLEL)"))
+          ;; A grasp with errors was already reported.
+          ((name-in name (graspbase-broken graspbase)))
+          (t (complain (action-form action) "TRY names ~a, which is not in the database~a" name
+                       (suggestion (symbol-name name)
+                                   (mapcar #'grasp-name (graspbase-grasps graspbase))))))))
+
+(define-action :keep (action rulebase)
+  (if (and (= (length (action-operands action)) 1) (name= (first (action-operands action)) "BEST"))
+      (let ((stop (make-stop :verdict :keep :rule *rule*)))
+        (setf (action-function action)
+              (lambda (memory binding)
+                (declare (ignore memory binding))
+                stop)))
+      (complain (action-form action) "KEEP is (KEEP BEST)")))
+
+(defmethod describe-action ((verb (eql :keep)) action)
+  (declare (ignore action))
+  "keep the best grasp, and stop")
