@@ -134,7 +134,7 @@ list of strings, there, with a cache of its own."
                                                   "--load" "session.lisp"))))
            "a session has restarts, and stays as it was")
        (write-file (file-text "rules.lisp") (merge-pathnames "rules.lisp" directory))
-       (let ((damaged (list (damage "problems" directory 0) (damage "trace" directory 3000)
+       (let ((damaged (list (damage "error-reports" directory 0) (damage "trace" directory 3000)
                             (damage "plan" directory 20))))
          (multiple-value-bind (status output errors) (pencil)
            (is (eql 0 status))
