@@ -21,6 +21,7 @@
                              (:file "operators")
                              (:file "read-forms")
                              (:file "compile-forms")
+                             (:file "grasp-entries")
                              (:file "read-gripper")
                              (:file "read-grasps")
                              (:file "preliminary-assertions")))

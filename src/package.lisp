@@ -71,4 +71,5 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
 (defpackage :supergrip-user
   (:use :cl :supergrip)
   (:shadow #:setq)
+  (:export #:setq)
   (:documentation "A package to type in."))

@@ -77,7 +77,7 @@
       (is (null (supergrip:possible-grasps (supergrip:try-grasp "PINCH-2-PARALLEL" (paper-box)))))
       (is (= (length (supergrip:knowledge-grasps before)) (grasp-total)))))
   (let ((x 1))
-    (supergrip-user::setq x 2)
+    (supergrip-user:setq x 2)
     (is (= 2 x) "anything else is set as ever")))
 
 (test setq-is-setq-where-a-variable-is-meant

@@ -110,7 +110,7 @@
     (:GRASPS "USED-SURFACES (N1 N2 A2)" ""
      "grasps.lisp:6: GRASP G: USED-SURFACES is missing")
     (:GRASPS "USED-SURFACES" "USED-SURFACE"
-     "grasps.lisp:6: GRASP G: unknown key USED-SURFACE (did you mean USED-SURFACES?); keys are USED-SURFACES, CONDITIONS, OFFSET, WRENCH, TWIST, CONTACTS, PALM"
+     "grasps.lisp:7: GRASP G: unknown key USED-SURFACE (did you mean USED-SURFACES?); keys are USED-SURFACES, CONDITIONS, OFFSET, WRENCH, TWIST, CONTACTS, PALM"
      "grasps.lisp:6: GRASP G: USED-SURFACES is missing")
     (:GRASPS "USED-SURFACES (N1 N2 A2)" "USED-SURFACES (N1 N2 X1)"
      "grasps.lisp:7: GRASP G, USED-SURFACES: (N1 N2 X1): USED-SURFACES are some of N1 N2 O1 O2 A1 A2")
@@ -119,7 +119,7 @@
     (:GRASPS "PALM A2" "PALM A2 PALM A2"
      "grasps.lisp:6: GRASP G: PALM is given twice")
     (:GRASPS "PALM A2" "PALM"
-     "grasps.lisp:6: GRASP G: a grasp is a list of keys and values in turn; the last, PALM, has no value")
+     "grasps.lisp:6: GRASP G: PALM has no value; a grasp is a list of keys and values in turn")
     (:GRASPS "PALM A2" "PALM A1"
      "grasps.lisp:6: GRASP G, PALM: the palm faces A1, which is not one of USED-SURFACES")
     (:GRASPS "PALM A2" "PALM TOP"

@@ -6,11 +6,8 @@
   "Return the place of ACTION, being compiled, in its rule."
   (position (action-form action) (rest (fourth (rule-form *rule*))) :test #'eq))
 
-(defun negation-in (words)
-  (find-if (lambda (word) (or (name= word "NO") (name= word "NOT"))) words))
-
 (define-action :remember (action rulebase)
-  (if (negation-in (action-operands action))
+  (if (some #'negation-p (action-operands action))
       (complain (action-form action)
                 "a negation can't be remembered: what is not remembered is false")
       (multiple-value-bind (predicate terms)

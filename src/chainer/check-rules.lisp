@@ -15,15 +15,12 @@ WORDS and its SURFACES, sorted, each as one text."
   "Return the use of SENTENCE, a list of words, in FORM, or NIL if it is not well formed."
   (let* ((list (find-if #'consp sentence))
          (names (remove-if-not #'namep sentence))
-         (words (loop for word in names
-                      unless (or (name= word "NO") (name= word "NOT"))
-                        collect (symbol-name word)))
-         (negations (count-if (lambda (word) (or (name= word "NO") (name= word "NOT"))) names)))
+         (words (mapcar #'symbol-name (remove-if #'negation-p names))))
     (and words
          (notany #'loose-surface-p names)
          (make-use number name place (words-text words)
                    (words-text (sort (mapcar #'form-text list) #'string<))
-                   form (plusp negations)))))
+                   form (some #'negation-p names)))))
 
 (defun rule-uses (form number)
   "Return the sentences that the rule FORM tests, and those that it remembers."

@@ -166,6 +166,10 @@ the last perhaps a list of surfaces.  Returns NIL after a complaint."
                (let ((predicate (intern-predicate (mapcar #'symbol-name names) (length terms) form)))
                  (and predicate (values predicate terms)))))))))
 
+(defun negation-p (word)
+  "True if WORD, a part of a sentence, negates it, wherever it stands."
+  (or (name= word "NO") (name= word "NOT")))
+
 (defun parse-clause (form)
   "Return the clause that FORM spells, or NIL after a complaint."
   (cond ((not (consp form))
@@ -177,19 +181,14 @@ the last perhaps a list of surfaces.  Returns NIL after a complaint."
              (complain form "NOT ~a names no predicate" (form-text (second form)))
              (complain form "write (NOT ~{~a~^ ~}): NOT stands before the words, without a list ~
                              of its own" (mapcar #'form-text (second form)))))
+        ((> (count-if #'negation-p form) 1)
+         (complain form "~a is negated twice" (form-text form)))
         (t
-         (let* ((not-p (name= (first form) "NOT"))
-                (words (if not-p (rest form) form))
-                (no-count (count-if (lambda (word) (name= word "NO")) words)))
-           (cond ((or (> no-count 1) (and not-p (plusp no-count))
-                      (find-if (lambda (word) (name= word "NOT")) words))
-                  (complain form "~a is negated twice" (form-text form)))
-                 (t
-                  (multiple-value-bind (predicate terms)
-                      (parse-sentence (remove-if (lambda (word) (name= word "NO")) words) form t)
-                    (and predicate
-                         (make-clause :negated (or not-p (plusp no-count)) :predicate predicate
-                                      :terms terms :form form)))))))))
+         (multiple-value-bind (predicate terms)
+             (parse-sentence (remove-if #'negation-p form) form t)
+           (and predicate
+                (make-clause :negated (some #'negation-p form) :predicate predicate
+                             :terms terms :form form))))))
 
 (defun sentence-text (words surfaces)
   "Return a sentence in words: \"S1 and S2 are PARALLEL\", \"OBJECT HAS FREE CORNERS\"."

@@ -363,8 +363,10 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
     (loop for character = (peek source)
           until (or (null character) (delimiterp character))
           do (unless (name-character-p character)
-               (fail source "~a is not allowed in a name or a number"
-                     (character-description character)))
+               (fail source "~a is not allowed in a name or a number~:[~;: a list whose entries are ~
+                             computed is written (LIST 0 0 0 0 (- x) x)~]"
+                     (character-description character)
+                     (and (zerop count) (find character "`,"))))
              (setf count (push-token source character count))
              (next source))
     (when (zerop count)
@@ -426,30 +428,54 @@ line, too."
 
 ;;; Forms that come from the Lisp reader
 
+(defun refuse-form (control &rest arguments)
+  (error 'syntax-error
+         :problems (list (make-problem :text (apply #'plain-text control arguments)))))
+
+(defun refuse-entry (entry)
+  (refuse-form "~a can't stand here: in a backquoted list stand numbers, and forms with a comma, as ~
+                `(0 0 0 0 ,(- x) ,x)" (form-text entry)))
+
+(defun canonical-atom (atom)
+  (typecase atom
+    (symbol (canonical-name (string-upcase (symbol-name atom))))
+    (string (copy-seq atom))
+    (rational atom)
+    (float (or (as-double atom)
+               (refuse-form "a number out of range: numbers lie between 1e-300 and 1e300, or are 0")))
+    (t (if (comma-p atom)
+           (refuse-entry atom)
+           (refuse-form "~a is not allowed in a form" (type-of atom))))))
+
+(defun template-entry (entry)
+  "Return the form of ENTRY, which stands in a backquoted list with commas."
+  (multiple-value-bind (form one) (if (comma-p entry) (comma-form entry) (values entry (realp entry)))
+    (if one form (refuse-entry entry))))
+
 (defun canonical (form)
   "Return FORM, which may come from the Lisp reader in any package, as this file's reader would
-have returned it.  Signals a SYNTAX-ERROR if it holds anything else, or too much of it."
+have returned it.  A backquoted list with commas becomes (LIST ...), one without a quoted list.
+Signals a SYNTAX-ERROR if FORM holds anything else, or too much of it."
   (let ((room *record-limit*))
-    (labels ((refuse (control &rest arguments)
-               (error 'syntax-error
-                      :problems (list (make-problem :text (apply #'plain-text control arguments)))))
-             (walk (form depth)
+    (labels ((walk (form depth)
                (when (minusp (decf room))
-                 (refuse "a form of more than ~d parts, or a circular one" *record-limit*))
+                 (refuse-form "a form of more than ~d parts, or a circular one" *record-limit*))
                (when (> depth *depth-limit*)
-                 (refuse "lists nest deeper than ~d" *depth-limit*))
-               (typecase form
-                 (null nil)
-                 (cons (loop for cell = form then (cdr cell)
-                             until (null cell)
-                             unless (consp cell)
-                               do (refuse "dotted pairs are not read: ~a" (form-text form))
-                             collect (walk (car cell) (1+ depth))))
-                 (symbol (canonical-name (string-upcase (symbol-name form))))
-                 (string (copy-seq form))
-                 (rational form)
-                 (float (or (as-double form)
-                            (refuse "a number out of range: numbers lie between 1e-300 and ~
-                                     1e300, or are 0")))
-                 (t (refuse "~a is not allowed in a form" (type-of form))))))
+                 (refuse-form "lists nest deeper than ~d" *depth-limit*))
+               (cond ((null form) nil)
+                     ((backquote-p form) (walk-template (second form) depth))
+                     ((consp form) (walk-list form depth #'identity))
+                     (t (canonical-atom form))))
+             (walk-list (list depth each)
+               (loop for cell = list then (cdr cell)
+                     until (null cell)
+                     unless (consp cell)
+                       do (refuse-form "dotted pairs are not read: ~a" (form-text list))
+                     collect (walk (funcall each (car cell)) (1+ depth))))
+             (walk-template (template depth)
+               (if (loop for cell on (and (consp template) template)
+                         repeat *record-limit*
+                           thereis (comma-p (car cell)))
+                   (cons :list (walk-list template depth #'template-entry))
+                   (list :quote (walk template (1+ depth))))))
       (walk form 0))))

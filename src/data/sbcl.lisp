@@ -51,6 +51,22 @@ caller has set."
   "As WITH-PLAIN-FLOATS; where an operation has no value, it gives an infinity or a NaN."
   `(with-float-modes (+float-flags+) ,@body))
 
+;;; What the Lisp reader makes of a backquote
+
+(defun backquote-p (form)
+  "True if FORM is what SBCL's reader makes of a backquote; the second of its two elements is the
+template."
+  (and (consp form) (eq (first form) 'sb-int:quasiquote)
+       (consp (rest form)) (null (cddr form))))
+
+(defun comma-p (object)
+  "True if OBJECT is what SBCL's reader makes of a comma."
+  (sb-int:comma-p object))
+
+(defun comma-form (comma)
+  "Return the form after COMMA, and true if it is one element of the list around it, not many."
+  (values (sb-int:comma-expr comma) (eql 0 (sb-int:comma-kind comma))))
+
 ;;; File names
 
 (defun native-path (file &key directory)

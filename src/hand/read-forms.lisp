@@ -123,10 +123,14 @@ the node of FORM in SCOPE, or NIL after a complaint."
                                          (declare (ignorable ,scope ,wanted))
                                          ,@body))))
 
+(defun placed (form)
+  "Return FORM if it is a list whose line is known, or else *FORM*."
+  (if (and (consp form) *lines* (gethash form *lines*)) form *form*))
+
 (defun parse-form (form scope wanted)
   "Return the node of FORM, which gives what is WANTED: :NUMBER, :SIX or :TEST.  NIL after a
 complaint."
-  (let ((*form* (if (and (consp form) *lines* (gethash form *lines*)) form *form*)))
+  (let ((*form* (placed form)))
     (ecase wanted
       (:number (and (count-step) (parse-number-form form scope)))
       (:test (and (count-step) (parse-test form scope)))
@@ -178,7 +182,9 @@ complaint."
   (let ((operator (form-operator form :number)))
     (when (check-argument-count form (arithmetic-least operator) (arithmetic-most operator))
       (let ((nodes (parse-forms (rest form) scope :number)))
-        (and nodes (arithmetic-node operator nodes form scope))))))
+        (when nodes
+          (check-sum form nodes)
+          (arithmetic-node operator nodes form scope))))))
 
 (defun arithmetic-node (operator nodes form scope)
   "Return the node of OPERATOR on NODES, which are more than it takes at once, or fewer."
@@ -223,6 +229,35 @@ constants.  NIL if one of them is NIL."
         (input-node (+ +distances+ (floor (first grasp-faces) 2)))
         (complain form "~a: DIST takes two opposite faces, such as (DIST '(N1 N2))" (form-text form)))))
 
+;;; Sums that were products once: the scan of the paper reads (* 2 u) as (+ 2 u)
+
+(defvar *sums* nil
+  "NIL, or true in a form whose sums are checked: in one of six entries its number, else T.")
+
+(defmacro watching-sums (form)
+  "Run FORM, which reads a form; warn of each sum in it that was probably meant to be a product."
+  `(let ((*sums* t)) ,form))
+
+(defun friction-p (node)
+  (and (eq (node-kind node) :input) (member (first (node-args node)) (list +u+ +v+))))
+
+(defun factor-p (form node)
+  "True if FORM, whose node is NODE, is a friction, a distance, or a number other than 1: what may be
+multiplied, each as it stands.  Nobody multiplies by 1."
+  (and (or (atom form) (part-p form "DIST"))
+       (or (eq (node-kind node) :input)
+           (and (constant-p node) (/= 1 (constant-value node))))))
+
+(defun check-sum (form nodes)
+  "Warn if FORM, with the NODES of its arguments, is a sum of factors, frictions and others."
+  (when (and *sums* (part-p form "+")
+             (every #'factor-p (rest form) nodes)
+             (some #'friction-p nodes)
+             (notevery #'friction-p nodes))
+    (complain form '(:warning "~@[entry ~d: ~]~a is taken as it stands, a sum; the product ~a was ~
+                               probably meant")
+              (and (integerp *sums*) *sums*) (form-text form) (form-text (cons :* (rest form))))))
+
 ;;; Helper functions
 
 (defun parse-call (form scope)
@@ -250,7 +285,7 @@ constants.  NIL if one of them is NIL."
                 (append (mapcar #'cons parameters nodes) (scope-globals scope))
                 ;; A helper sees those before it, so none can call itself.
                 (scope-functions inner) (rest (member function (scope-functions scope))))
-          (let-node nodes (parse-form body inner :number) form))))))
+          (let-node nodes (let ((*sums* nil)) (parse-form body inner :number)) form))))))
 
 (defun let-node (nodes body form)
   "Return a node that computes NODES, as a Lisp call does, whether BODY uses them or not.  NIL if BODY
@@ -323,14 +358,23 @@ is."
           (t (parse-six-entries form form scope)))))
 
 (defun parse-six-entries (form entries scope)
-  (let ((nodes (parse-forms entries scope :number)))
+  (let ((nodes (loop for entry in entries
+                     for number from 1
+                     collect (let ((*sums* (and *sums* number))) (parse-form entry scope :number)))))
     (cond ((/= (length entries) 6)
            (complain form "~d entr~:@p, six are needed: along N O A, about N O A (OFFSET: N1 N2 O1 ~
                            O2 A1 A2)" (length entries)))
-          (nodes (make-node :kind :list :args nodes :form form)))))
+          ((notany #'null nodes) (make-node :kind :list :args nodes :form form)))))
 
 (define-form "LIST" (:six) (form scope)
   (parse-six-entries form (rest form) scope))
+
+(define-form "QUOTE" (:six) (form scope)
+  (let ((entries (second form)))
+    (if (and (listp entries) (every #'realp entries))
+        (parse-six-entries form entries scope)
+        (complain form "~a: what is quoted is not computed; write ~a" (form-text form)
+                  (form-text (if (listp entries) (cons :list entries) '(:list 0 0 0 0 0 0)))))))
 
 ;;; Tests: T, (CONSTRAINED N1), comparisons prefix (< a b) or infix (a < b), (NOT test), and tests
 ;;; joined by AND and OR, prefix or infix; infix AND and OR have equal precedence and associate to

@@ -26,8 +26,9 @@ SAME, for each matching, the set of those that are the same grasp, itself includ
    :type (simple-array (unsigned-byte 24) (24)) :read-only t))
 
 (defun grasp-form (grasp)
-  "Return the form that defines GRASP, as it was read."
-  (copy-tree (grasp-definition grasp)))
+  "Return the form that defines GRASP, (SETQ name '(key value ...)), in whatever shape it was read."
+  (destructuring-bind (setq name (quotation list)) (grasp-definition grasp)
+    (copy-tree (list setq name (list quotation (canonical-entries list))))))
 
 (defmethod print-object ((grasp grasp) stream)
   (print-unreadable-object (grasp stream :type t)
@@ -85,26 +86,28 @@ start from."
 
 ;;; Grasps
 
-(defparameter +grasp-keys+
-  '("USED-SURFACES" "CONDITIONS" "OFFSET" "WRENCH" "TWIST" "CONTACTS" "PALM")
-  "The keys of a grasp; the last two may be absent.")
-
-(defun grasp-plist (plist form)
-  "Return an alist of the keys of PLIST, complaining of unknown, repeated and missing ones."
+(defun grasp-entries (list form)
+  "Return those entries of LIST that have a value, each a list of its key, the value and the form that
+it begins with, complaining of unknown, repeated, empty and missing ones."
   (let ((entries '()))
-    (unless (evenp (length plist))
-      (complain form "a grasp is a list of keys and values in turn; the last, ~a, has no value"
-                (form-text (first (last plist)))))
-    (loop for (key value) on (if (evenp (length plist)) plist (butlast plist)) by #'cddr
+    (loop for (key parts place) in (split-entries list)
           do (cond ((not (name-in key +grasp-keys+))
-                    (complain form "unknown key ~a~a; keys are ~{~a~^, ~}" (form-text key)
-                              (if (namep key) (suggestion (symbol-name key) +grasp-keys+) "")
-                              +grasp-keys+))
-                   ((assoc key entries :test #'name=) (complain form "~a is given twice" key))
-                   (t (push (cons (symbol-name key) value) entries))))
-    (dolist (key (subseq +grasp-keys+ 0 5) entries)
+                    (complain place "unknown key ~a~a; keys are ~{~a~^, ~}" (form-text key)
+                              (key-suggestion key) +grasp-keys+))
+                   ((assoc key entries :test #'name=) (complain place "~a is given twice" key))
+                   (t (unless parts
+                        (complain place "~a has no value; a grasp is a list of keys and values in turn"
+                                  key))
+                      (push (list key (entry-value key parts) place (consp parts)) entries))))
+    (dolist (key (subseq +grasp-keys+ 0 5))
       (unless (assoc key entries :test #'string=)
-        (complain form "~a is missing" key)))))
+        (complain form "~a is missing" key)))
+    (remove nil entries :key #'fourth)))
+
+(defun key-suggestion (key)
+  "Return the phrase that suggests what KEY, which is none, was probably meant to be."
+  (let ((name (if (consp key) (first key) key)))
+    (if (namep name) (suggestion (symbol-name name) +grasp-keys+) "")))
 
 (defun parse-used (value)
   (let ((grasp-faces (and (consp value) (mapcar #'grasp-face-index value))))
@@ -117,12 +120,12 @@ start from."
 (defun parse-palm (entry used form)
   "Return the grasp face of the palm: by default the used face of A.  USED is NIL if it is wrong itself."
   (let ((grasp-face (if entry
-                  (grasp-face-index (cdr entry))
+                  (grasp-face-index (second entry))
                   (find-if (lambda (grasp-face) (member grasp-face used)) '(5 4)))))
     (cond ((null grasp-face)
            (complain form (if entry "~a: PALM is one of N1 N2 O1 O2 A1 A2"
                               "PALM is missing, and no face of A is used~*")
-                     (and entry (form-text (cdr entry)))))
+                     (and entry (form-text (second entry)))))
           ((and used (not (member grasp-face used)))
            (complain form "the palm faces ~a, which is not one of USED-SURFACES"
                      (svref +grasp-faces+ grasp-face)))
@@ -145,7 +148,7 @@ start from."
 (defun parse-contacts (entry used palm scope form)
   "Return the contacts, by default one in the middle of each used face but the palm's."
   (let ((contacts (if entry
-                      (and (listp (cdr entry)) (cdr entry))
+                      (and (listp (second entry)) (second entry))
                       (loop for grasp-face in used
                             unless (eql grasp-face palm) collect (list (svref +grasp-faces+ grasp-face) 0 0)))))
     (cond ((null contacts) (complain form "CONTACTS lists no contact"))
@@ -175,36 +178,40 @@ start from."
     (:cond (&rest clauses)
       (loop for (nil value) in clauses thereis (negative-twist value)))))
 
+(defun parse-twist (form scope)
+  "Return the node of FORM, the mobility; complain of an entry below zero."
+  (let ((node (parse-form form scope :six)))
+    (if (and node (negative-twist node))
+        (complain form "an entry below 0: mobility is 0 or more")
+        node)))
+
 (defun parse-grasp (name plist form scope)
   "Return the draft of the grasp NAME, whose description is PLIST, or NIL after a complaint."
-  (if (notany (lambda (part) (name-in part +grasp-keys+)) plist)
+  (if (notany #'begins-entry-p plist)
       (complain form "~a is not a grasp~a: its list has none of the keys ~{~a~^, ~}" name
                 (suggestion (symbol-name name) '("GRIPPER")) +grasp-keys+)
       (parse-grasp-parts name plist form scope)))
 
 (defun parse-grasp-parts (name plist form scope)
   (let ((*subject* (format nil "GRASP ~a" name)) (*form* form)
-        (entries (let ((*subject* (format nil "GRASP ~a" name))) (grasp-plist plist form))))
-    (flet ((value (key) (cdr (assoc key entries :test #'string=)))
-           (given (key) (assoc key entries :test #'string=)))
-      (macrolet ((part (key form)
+        (entries (let ((*subject* (format nil "GRASP ~a" name))) (grasp-entries plist form))))
+    (flet ((given (key) (assoc key entries :test #'string=)))
+      (macrolet ((at (key form &optional (counted 'form))
+                   `(let ((*place* ,key) (*form* (placed (third (given ,key)))))
+                      (counting-steps (,counted) ,form)))
+                 (part (key form)
                    `(and (given ,key)
-                         (let ((*place* ,key))
-                           (counting-steps ((value ,key)) ,form)))))
-        (let* ((used (part "USED-SURFACES" (parse-used (value "USED-SURFACES"))))
+                         (let ((value (second (given ,key)))) (at ,key ,form value)))))
+        (let* ((used (part "USED-SURFACES" (parse-used value)))
                (palm (and (or used (given "PALM"))
-                          (let ((*place* "PALM")) (parse-palm (given "PALM") used form))))
+                          (at "PALM" (parse-palm (given "PALM") used form))))
                (contacts (and (or (and used palm) (given "CONTACTS"))
-                              (let ((*place* "CONTACTS"))
-                                (counting-steps (form)
-                                  (parse-contacts (given "CONTACTS") used palm scope form)))))
-               (conditions (part "CONDITIONS" (parse-conditions (value "CONDITIONS") scope)))
-               (offset (part "OFFSET" (parse-form (value "OFFSET") scope :six)))
-               (wrench (part "WRENCH" (parse-form (value "WRENCH") scope :six)))
-               (twist (part "TWIST" (parse-form (value "TWIST") scope :six))))
-          (when (and twist (negative-twist twist))
-            (let ((*place* "TWIST"))
-              (setf twist (complain (value "TWIST") "an entry below 0: mobility is 0 or more"))))
+                              (at "CONTACTS"
+                                  (parse-contacts (given "CONTACTS") used palm scope form))))
+               (conditions (part "CONDITIONS" (parse-conditions value scope)))
+               (offset (part "OFFSET" (parse-form value scope :six)))
+               (wrench (part "WRENCH" (watching-sums (parse-form value scope :six))))
+               (twist (part "TWIST" (parse-twist value scope))))
           (and used palm contacts conditions offset wrench twist
                (make-draft :name (symbol-name name) :form form
                            :file (form-file form)
@@ -310,6 +317,9 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
       (let ((*form* form))
         (cond ((gripper-form-p form))
               ((part-p form "DEFUN") (parse-helper form scope))
+              ((and (consp form) (begins-entry-p form))
+               (complain form "~a stands outside of a grasp: a ) before it is one too many"
+                         (first form)))
               (t (multiple-value-bind (name plist) (definition-form form)
                    (let ((draft (and name (parse-grasp name plist form scope))))
                      (cond ((null draft)

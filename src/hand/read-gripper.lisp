@@ -16,10 +16,16 @@
          (complain form "~a is ~a; a dimension is a number from 0" name (form-text value)))
         (t (cons (symbol-name name) (as-double value)))))
 
+(defun flat-list (list)
+  "Return LIST with the elements of the lists in it in their places."
+  (loop for part in list
+        if (consp part) append part
+          else collect part))
+
 (defun parse-gripper (list form)
   "Return the alist of the dimensions in LIST, names and numbers in turn, complaining of what is
-wrong."
-  (let ((dimensions '()) (names '()))
+wrong.  A name and its number may have a list of their own."
+  (let ((dimensions '()) (names '()) (list (flat-list list)))
     (when (nthcdr (* 2 +most-dimensions+) list)
       (return-from parse-gripper
         (complain form "more than ~d dimensions" +most-dimensions+)))

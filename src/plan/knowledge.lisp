@@ -168,14 +168,16 @@ being read is among its problems."
                     --dynamic-space-size makes the heap larger" (room-for (length text))))
           (t (string-source text :name name)))))
 
-(defun accept-knowledge (make)
+(defun accept-knowledge (make &optional told)
   "Return the knowledge that MAKE, a function that returns it and a list of problems, makes.
-Signals a KNOWLEDGE-ERROR with all of them if one is an error; warns if there are only warnings."
+Signals a KNOWLEDGE-ERROR with all of them if one is an error; warns if there are only warnings.  Those
+that were TOLD before are not told again."
   (multiple-value-bind (knowledge problems) (funcall make)
-    (cond ((errors-in problems)
-           (error 'knowledge-error :problems problems))
-          (problems
-           (warn 'knowledge-warning :problems problems)))
+    (let ((news (remove-if (lambda (problem) (member problem told :test #'equalp)) problems)))
+      (cond ((errors-in news)
+             (error 'knowledge-error :problems news))
+            (news
+             (warn 'knowledge-warning :problems news))))
     knowledge))
 
 (defun accept-files (read)

@@ -17,7 +17,7 @@ stays, and the KNOWLEDGE-ERROR says so."
 
 (defun accept-edit (make)
   "Return the knowledge that MAKE makes; if it is wrong, the restart CONTINUE returns the former."
-  (restart-case (accept-knowledge make)
+  (restart-case (accept-knowledge make (knowledge-warnings *knowledge*))
     (continue ()
       :report "Leave the knowledge in force as it was."
       *knowledge*)))
@@ -66,15 +66,91 @@ given, in a place of its own."
     (setf (data-file-forms copy) (funcall edit (data-file-forms file)))
     copy))
 
+;;; Definitions
+
+(defun proper-list-p (object)
+  "True if OBJECT is a list that ends."
+  (and (listp object)
+       (handler-case (list-length object)
+         (type-error () nil))))         ; a dotted one
+
+(defun quoted-form (form)
+  "Return what FORM quotes, or else FORM."
+  (if (and (part-p form "QUOTE") (proper-list-p form) (= (length form) 2))
+      (second form)
+      form))
+
+(defun dimension-name-p (name)
+  "True if NAME is that of a dimension of the gripper in force."
+  (assoc name (knowledge-gripper *knowledge*) :test #'name=))
+
+(defun with-dimension (name value forms)
+  "Return FORMS, those of a grasp file, with VALUE for the dimension NAME of its gripper."
+  (flet ((changed (form)
+           (let ((list (flat-list (second (third form)))))
+             `(,(first form) ,(second form)
+               (:quote ,(loop for (key old) on list by #'cddr
+                              collect key
+                              collect (if (name= key name) value old)))))))
+    (loop for form in forms
+          collect (if (gripper-form-p form) (changed form) form))))
+
+(defun put-definition (form forms before)
+  "Return FORMS with the definition FORM put into them (see PUT-FORM)."
+  (let* ((name (and (part-p form "SETQ") (= (length form) 3) (second form)))
+         (value (and name (quoted-form (third form)))))
+    (flet ((refuse (wanted)
+             (refuse-argument "~a is ~a, not ~a" name wanted (form-text value))))
+      (cond ((not (namep name)) (put-form form forms before))
+            ((not (dimension-name-p name))
+             (when (atom value)
+               (refuse (if (name= name "GRIPPER")
+                           "a list of names and numbers, '(FINGER-LENGTH 3.2 ...)"
+                           "a grasp, a list of keys and values, '(USED-SURFACES (N1 N2 A2) ...)")))
+             (put-form form forms before))
+            ((realp value) (with-dimension name value forms))
+            (t (refuse "a dimension of the gripper, a number"))))))
+
+(defun definitions (form)
+  "Return the list of the definitions in FORM, of which a SETQ may hold several."
+  (if (and (part-p form "SETQ") (nthcdr 3 form) (oddp (length form)))
+      (loop for (name value) on (rest form) by #'cddr
+            collect (list (first form) name value))
+      (list form)))
+
+(defun unreadable-key (list)
+  "Return the key of LIST, that of a grasp, whose value can't be read, or NIL."
+  (and (proper-list-p list)
+       (loop for (key parts) in (split-entries list)
+             when (handler-case (progn (canonical parts) nil)
+                    (syntax-error () t))
+               return (and (namep key) (name-text key)))))
+
+(defun canonical-definition (form)
+  "Return FORM as the data reader would have returned it.  Of what can't be read, the name of the grasp
+and the key are told."
+  (handler-bind ((syntax-error
+                   (lambda (condition)
+                     (when (and (part-p form "SETQ") (proper-list-p form) (namep (second form)))
+                       (dolist (problem (input-error-problems condition))
+                         (setf (problem-subject problem) (plain-text "GRASP ~a" (second form))
+                               (problem-place problem)
+                               (unreadable-key (quoted-form (third form)))))))))
+    (canonical form)))
+
 (defun edit (form &key before)
-  "Put FORM, (RULE ...), (SETQ grasp '(...)), (SETQ GRIPPER '(...)) or (DEFUN ...), into the knowledge
-in force, in place of the one of its name.  A rule goes before the rule BEFORE if that is given; a
-new one goes before the last by default.  A new grasp goes last.  Returns the new knowledge.
+  "Put FORM, (RULE ...), (SETQ grasp '(...)), (SETQ GRIPPER '(...)), (SETQ dimension number) or
+(DEFUN ...), into the knowledge in force, in place of the one of its name.  A rule goes before the rule
+BEFORE if that is given; a new one goes before the last by default.  A new grasp goes last.  What one
+SETQ defines takes effect together.  Returns the new knowledge.
 
 On a KNOWLEDGE-ERROR the former knowledge stays in force; the restart CONTINUE goes on with it.  The
 files stay as they are: RELOAD-KNOWLEDGE takes edits back."
-  (let ((form (canonical form)))
-    (change-knowledge (part-p form "RULE") (lambda (forms) (put-form form forms before)))))
+  (let ((form (canonical-definition form)))
+    (change-knowledge (part-p form "RULE")
+                      (lambda (forms)
+                        (dolist (definition (definitions form) forms)
+                          (setf forms (put-definition definition forms before)))))))
 
 (defun change-knowledge (rules-p edit)
   "Put into force what becomes of the knowledge when EDIT, a function, changes the forms of its rules,
@@ -104,41 +180,78 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
 
 ;;; SETQ at top level
 
-(defun proper-list-p (object)
-  "True if OBJECT is a list that ends."
-  (and (listp object)
-       (handler-case (list-length object)
-         (type-error () nil))))         ; a dotted one
+(defun listed-form (form)
+  "Return the list that FORM, '(...), `(...) or (LIST ...), makes, as far as it can be seen; or NIL."
+  (let ((list (cond ((backquote-p form) (second form))
+                    ((and (proper-list-p form) (eq (first form) 'list))
+                     (mapcar #'quoted-form (rest form)))
+                    ((not (eq form (quoted-form form))) (quoted-form form)))))
+    (and (proper-list-p list) list)))
 
-(defun quoted-list (form)
-  "Return the list that FORM quotes, or NIL."
-  (and (proper-list-p form) (eq (first form) 'quote) (= (length form) 2)
-       (proper-list-p (second form))
-       (second form)))
+(defun defining-list-p (list)
+  "True if LIST is meant to be a grasp or a gripper: it begins with USED-SURFACES, or gives values to
+two keys."
+  (flet ((count-given (keys)
+           (loop for (part next) on list
+                 count (and (begins-entry-p part keys)
+                            (if (consp part)
+                                (rest part)
+                                (and next (not (begins-entry-p next keys))))))))
+    (or (begins-entry-p (first list) '("USED-SURFACES"))
+        (> (count-given +grasp-keys+) 1)
+        (> (count-given +dimensions+) 1))))
 
-(defun definition-p (name list)
-  "True if (SETQ NAME 'LIST) is a grasp or the gripper."
-  (and list
-       (or (name= name "GRIPPER")
-           (loop for (key) on list by #'cddr thereis (name= key "USED-SURFACES")))))
+(defun defined-name-p (name)
+  "True if NAME has a meaning in the grasp file in force."
+  (or (name= name "GRIPPER")
+      (dimension-name-p name)
+      (find-grasp (knowledge-graspbase *knowledge*) (name-text name))))
 
-(defun unquoted-p (name form)
+(defun quote-missing-p (name form)
   "True if FORM is a box, a grasp or a gripper whose quote was forgotten."
-  (and (consp form)
+  (and (proper-list-p form) form
        (or (and (name= name "BOX") (consp (first form)) (not (eq (caar form) 'lambda)))
-           (and (name= name "GRIPPER") (assoc (first form) (knowledge-gripper *knowledge*)
-                                              :test #'name=))
-           (name= (first form) "USED-SURFACES"))))
+           (and (name= name "GRIPPER") (dimension-name-p (first form)))
+           (begins-entry-p (first form) '("USED-SURFACES"))
+           (and (begins-entry-p (first form)) (defining-list-p form)))))
 
-(defmacro supergrip-user::setq (&rest pairs &environment environment)
-  "SETQ, but at top level (SETQ name '(USED-SURFACES ...)) and (SETQ GRIPPER '(...)) edit the
-knowledge in force.  Where a variable is meant, as inside a function, it is SETQ alone."
-  (destructuring-bind (&optional name value)
-      (if (and (proper-list-p pairs) (= (length pairs) 2)) pairs '())
-    (cond ((not (and (namep name) (global-name-p name environment '(box))))
-           `(cl:setq ,@pairs))
-          ((definition-p name (quoted-list value))
-           `(edit '(setq ,name ,value)))
-          ((unquoted-p name value)
-           `(refuse-argument "the quote is missing: write (setq ~(~a~) '(...))" ',name))
-          (t `(cl:setq ,@pairs)))))
+(defun meant-dimension (name)
+  "Return the phrase that suggests the dimension that NAME was probably meant to be."
+  (suggestion (name-text name) (mapcar #'car (knowledge-gripper *knowledge*))))
+
+(defun set-variable (name value)
+  "Give the variable NAME the VALUE, unless that is a number for a dimension that is misspelt."
+  (when (realp value)
+    (refuse-argument "~a is not a dimension of the gripper~a; (cl:setq ~(~a~) ~a) sets a variable"
+                     name (meant-dimension name) name (form-text value)))
+  (set name value))
+
+(defun assignment (name value environment)
+  "Return the form that gives NAME, which SETQ was told to, the VALUE, a form; or NIL and, if it is a
+definition, the arguments of a SETQ that EDIT takes."
+  (cond ((not (and (namep name) (global-name-p name environment '(box))))
+         `(cl:setq ,name ,value))
+        ((quote-missing-p name value)
+         `(refuse-argument "the quote is missing: write (setq ~(~a~) '(...))" ',name))
+        ((or (defined-name-p name) (defining-list-p (listed-form value)))
+         (values nil `(',name (list 'quote ,value))))
+        ((string= "" (meant-dimension name)) `(cl:setq ,name ,value))
+        ;; A call: where it is not, SBCL expands the macro again, no more at top level.
+        (t `(set-variable ',name ,value))))
+
+(defmacro supergrip-user:setq (&rest pairs &environment environment)
+  "SETQ, but at top level (SETQ name '(USED-SURFACES ...)), (SETQ GRIPPER '(...)) and (SETQ dimension
+number) edit the knowledge in force; several at once take effect together.  Where a variable is meant,
+as inside a function, it is SETQ alone."
+  (let ((forms '()) (definitions '()))
+    (flet ((add (form)
+             (when definitions
+               (push `(edit (list 'setq ,@(shiftf definitions '()))) forms))
+             (when form (push form forms))))
+      (if (and (proper-list-p pairs) (evenp (length pairs)))
+          (loop for (name value) on pairs by #'cddr
+                do (multiple-value-bind (form definition) (assignment name value environment)
+                     (if form (add form) (setf definitions (append definitions definition)))))
+          (add `(cl:setq ,@pairs)))
+      (add nil)
+      (if (rest forms) `(progn ,@(reverse forms)) (first forms)))))

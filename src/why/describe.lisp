@@ -87,7 +87,7 @@ Returns the grasp."
 
 (defun write-grasp-form (grasp stream)
   (format stream "(SETQ ~a~%  '(" (grasp-name grasp))
-  (loop for (key value . rest) on (second (third (grasp-definition grasp))) by #'cddr
+  (loop for (key value . rest) on (second (third (grasp-form grasp))) by #'cddr
         do (format stream "~a " key)
            (write-filled value (+ 5 (length (symbol-name key))) stream)
            (when rest (format stream "~%    ")))
