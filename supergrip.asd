@@ -165,6 +165,7 @@
                (:file "try-steps")
                (:file "engines")
                (:file "forms")
+               (:file "grasp-entries")
                (:file "spoiled")
                (:file "explain")
                (:file "printer-settings")

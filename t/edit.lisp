@@ -112,12 +112,86 @@
         do (is (equal (format nil "the quote is missing: write ~a" text)
                       (error-text (eval-in-user form))))))
 
-(defun eval-in-user (text)
-  "Return the value of the form TEXT in SUPERGRIP-USER; warnings of undefined variables are not
-printed."
-  (let ((*package* (find-package :supergrip-user)) (*error-output* (make-broadcast-stream)))
-    (handler-bind ((warning #'muffle-warning))
-      (eval (read-from-string text)))))
+(defun dimension (name)
+  (cdr (assoc name (supergrip:knowledge-gripper supergrip:*knowledge*) :test #'string=)))
+
+(test setq-of-a-dimension-edits-the-gripper
+  (with-knowledge-restored
+    (eval-in-user "(setq finger-length 4)")
+    (is (= 4 (dimension "FINGER-LENGTH")))
+    (eval-in-user "(setq finger-length (- 5 1) Finger-Dist 9.262)")
+    (is (= 9.262d0 (dimension "FINGER-DIST")))
+    (is (equal (file-text "t/pencil-session.txt") (transcript (pencil-plan)))
+        "another hand that prints the same session")
+    (is (equal "GRIPPER: DIST-PINCH is 20, but fingers of two links of 4 cm that start 9.262 cm apart open to 17.26 at most
+The knowledge in force stays as it was."
+               (error-text (eval-in-user "(setq dist-pinch 20)"))))
+    (eval-in-user "(setq dist-pinch 20 finger-length 6)")
+    (is (= 20 (dimension "DIST-PINCH")) "what stands in one SETQ takes effect together")
+    (supergrip:edit '(setq reach-u 5))
+    (is (= 5 (dimension "REACH-U")))
+    (is (= 2 (eval-in-user "(let ((finger-length 1)) (setq finger-length 2) finger-length)")))
+    (is (= 6 (dimension "FINGER-LENGTH")))))
+
+(test setq-of-what-is-not-valid-sets-nothing
+  (let ((before supergrip:*knowledge*))
+    (loop for (typed report)
+            in '(("(setq finger-length '(3))" "FINGER-LENGTH is a dimension of the gripper, a number, not (3)")
+                 ("(setq finger-length -3)" "GRIPPER: FINGER-LENGTH is -3; a dimension is a number from 0")
+                 ("(setq finger-lenght 3)" "FINGER-LENGHT is not a dimension of the gripper (did you mean FINGER-LENGTH?); (cl:setq finger-lenght 3) sets a variable")
+                 ("(setq finger-lenght (/ 6 2))" "FINGER-LENGHT is not a dimension")
+                 ("(setq x 1 finger-lenght 3)" "FINGER-LENGHT is not a dimension")
+                 ("(setq pinch-2-parallel 5)" "PINCH-2-PARALLEL is a grasp, a list of keys and values, '(USED-SURFACES (N1 N2 A2) ...), not 5")
+                 ("(setq pinch-2-parallel '(a b))" "PINCH-2-PARALLEL is not a grasp: its list has none of the keys")
+                 ("(setq pinch-2-parallel nil)" "PINCH-2-PARALLEL is a grasp, a list of keys and values, '(USED-SURFACES (N1 N2 A2) ...), not ()")
+                 ("(setq gripper 5)" "GRIPPER is a list of names and numbers, '(FINGER-LENGTH 3.2 ...), not 5")
+                 ("(setq gripper '(finger-length))" "GRIPPER: FINGER-LENGTH has no number after it")
+                 ("(setq griper '(finger-length 3 finger-dist 6))" "GRIPER is not a grasp (did you mean GRIPPER?)")
+                 ("(setq griper '((finger-length 3) (finger-dist 6)))" "GRIPER is not a grasp (did you mean GRIPPER?)")
+                 ("(setq lateral '(conditions (t) twist (1 1 1 1 1 1)))" "GRASP LATERAL: USED-SURFACES is missing")
+                 ("(setq lateral '((conditions t) (twist 1 1 1 1 1 1)))" "GRASP LATERAL: USED-SURFACES is missing")
+                 ("(setq lateral '((used-surfaces n1)))" "GRASP LATERAL: CONDITIONS is missing")
+                 ("(setq lateral (list 'used-surfaces '(n1 n2) 'offset 0))" "GRASP LATERAL: CONDITIONS is missing")
+                 ("(setq lateral `(used-surfaces (,'n1 n2)))" "GRASP LATERAL: CONDITIONS is missing")
+                 ("(setq x 1 lateral '(used-surfaces (n1 n2)))" "GRASP LATERAL: CONDITIONS is missing")
+                 ("(setq lateral ((used-surfaces (n1 n2)) (offset 0)))" "the quote is missing: write (setq lateral '(...))")
+                 ("(setq lateral (conditions (t) offset 0))" "the quote is missing: write (setq lateral '(...))"))
+          do (let ((said (error-text (eval-in-user typed))))
+               (is (eql 0 (search report said)) "~a~%gave ~a" typed said)))
+    (is (eq before supergrip:*knowledge*))
+    (loop for name in '("lateral" "griper" "gripper" "finger-lenght" "finger-length")
+          do (is (not (boundp (find-symbol (string-upcase name) :supergrip-user))) name))))
+
+(test setq-sets-what-looks-like-nothing-known
+  (let ((before supergrip:*knowledge*))
+    (loop for (typed value)
+            in '(("(setq x '(offset wrench))" "(OFFSET WRENCH)")
+                 ("(setq x '(finger-length finger-dist))" "(FINGER-LENGTH FINGER-DIST)")
+                 ("(setq x '(palm tree))" "(PALM TREE)")
+                 ("(setq x (list 1 2))" "(1 2)")
+                 ("(setq finger-lenght 'a)" "A")
+                 ("(setq x 1 y `(,x 2))" "(1 2)"))
+          do (is (equal value (let ((value (eval-in-user typed))
+                                    (*package* (find-package :supergrip-user)))
+                                (prin1-to-string value)))))
+    (is (eq before supergrip:*knowledge*))
+    (mapc (lambda (name) (makunbound (find-symbol name :supergrip-user)))
+          '("X" "Y" "FINGER-LENGHT"))))
+
+(test setq-edits-in-any-package-that-imports-it
+  (with-knowledge-restored
+    (let ((package (make-package (gensym "USER") :use '(:cl :supergrip))))
+      (unwind-protect
+           (let ((*package* package))
+             (shadowing-import 'supergrip-user:setq)
+             (eval (read-from-string "(setq finger-length 4)"))
+             (is (= 4 (dimension "FINGER-LENGTH")))
+             (eval (read-from-string "(setq pinch-2-parallel
+               '((used-surfaces (n1 n2 a2)) (conditions (dist '(n1 n2)) < 1)
+                 (offset `(0 0 0 0 ,(- u) ,u)) (wrench 1 1 1 1 1 1) (twist 1 1 1 1 1 1)))"))
+             (is (null (supergrip:possible-grasps
+                        (supergrip:try-grasp "PINCH-2-PARALLEL" (paper-box))))))
+        (delete-package package)))))
 
 (test knowledge-is-read-again
   (with-knowledge-restored

@@ -101,7 +101,7 @@ it returns a plist with one function of no arguments for each property to be com
 (defun sentence (clause)
   "Return CLAUSE as a fact, its NO or NOT taken out; the second value is true if it had one."
   (let* ((words (remove-if #'listp clause))
-         (positive (remove 'no (if (eq (first words) 'not) (rest words) words))))
+         (positive (remove 'not (remove 'no words))))
     (values (cons positive (find-if #'consp clause))
             (< (length positive) (length words)))))
 

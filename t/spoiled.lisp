@@ -215,7 +215,7 @@
     (is (equal '("rules.lisp:1: RULE R: more than 500 clauses")
                (reports (format nil "(RULE R (IF ~a) (THEN (KEEP BEST)))" (repeat 501 "(SLIPPERY)"))
                         *good-grasps*)))
-    (is (equal '("grasps.lisp:6: GRASP G, CONTACTS: CONTACTS lists more than 50 contacts")
+    (is (equal '("grasps.lisp:15: GRASP G, CONTACTS: CONTACTS lists more than 50 contacts")
                (reports *good-rules*
                         (replace-once *good-grasps* "((N1 0 0)" (format nil "(~a" (repeat 51 "(N1 0 0)"))))))
     (let ((reports (reports (format nil "(RULE R (IF ~a) (THEN (KEEP BEST)))" (repeat 400 "(SMALL)"))

@@ -73,6 +73,26 @@ Returns its status, standard output and standard error."
 (defun transcript (plan)
   (with-output-to-string (out) (supergrip:write-transcript plan out)))
 
+;;; What is typed
+
+(defun eval-in-user (text)
+  "Return the value of the form TEXT in SUPERGRIP-USER; warnings of undefined variables are not
+printed."
+  (let ((*package* (find-package :supergrip-user)) (*error-output* (make-broadcast-stream)))
+    (handler-bind ((warning #'muffle-warning))
+      (eval (read-from-string text)))))
+
+(defmacro warning-texts (form)
+  "Return the texts of the problems that FORM warns of."
+  `(let ((texts '()))
+     (handler-bind ((supergrip:knowledge-warning
+                      (lambda (warning)
+                        (dolist (problem (supergrip:knowledge-warning-problems warning))
+                          (push (princ-to-string problem) texts))
+                        (muffle-warning warning))))
+       ,form)
+     (reverse texts)))
+
 ;;; Boxes
 
 (defun part-between (text start end)

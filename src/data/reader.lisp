@@ -363,8 +363,8 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
     (loop for character = (peek source)
           until (or (null character) (delimiterp character))
           do (unless (name-character-p character)
-               (fail source "~a is not allowed in a name or a number~:[~;: a list whose entries are ~
-                             computed is written (LIST 0 0 0 0 (- x) x)~]"
+               (fail source "~a is not allowed in a name or a number~:[~;: a list whose entries ~
+                             are computed is written (LIST 0 0 0 0 (- x) x)~]"
                      (character-description character)
                      (and (zerop count) (find character "`,"))))
              (setf count (push-token source character count))
@@ -433,8 +433,8 @@ line, too."
          :problems (list (make-problem :text (apply #'plain-text control arguments)))))
 
 (defun refuse-entry (entry)
-  (refuse-form "~a can't stand here: in a backquoted list stand numbers, and forms with a comma, as ~
-                `(0 0 0 0 ,(- x) ,x)" (form-text entry)))
+  (refuse-form "~a can't stand here: in a backquoted list stand numbers, and forms with a comma, ~
+                as `(0 0 0 0 ,(- x) ,x)" (form-text entry)))
 
 (defun canonical-atom (atom)
   (typecase atom
@@ -442,14 +442,16 @@ line, too."
     (string (copy-seq atom))
     (rational atom)
     (float (or (as-double atom)
-               (refuse-form "a number out of range: numbers lie between 1e-300 and 1e300, or are 0")))
+               (refuse-form "a number out of range: numbers lie between 1e-300 and 1e300, or ~
+                             are 0")))
     (t (if (comma-p atom)
            (refuse-entry atom)
            (refuse-form "~a is not allowed in a form" (type-of atom))))))
 
 (defun template-entry (entry)
   "Return the form of ENTRY, which stands in a backquoted list with commas."
-  (multiple-value-bind (form one) (if (comma-p entry) (comma-form entry) (values entry (realp entry)))
+  (multiple-value-bind (form one)
+      (if (comma-p entry) (comma-form entry) (values entry (realp entry)))
     (if one form (refuse-entry entry))))
 
 (defun canonical (form)

@@ -1,8 +1,8 @@
-;;;; grasp-entries.lisp -- the list of a grasp is split into its entries, in each shape that it may have.
+;;;; grasp-entries.lisp -- the list of a grasp is split into its entries, in any shape it may have.
 ;;;;
-;;;; The shape that is printed is keys and values in turn: (USED-SURFACES (N1 N2 A2) CONDITIONS ...).
-;;;; As in the paper, a key may also stand in parentheses with its value, (WRENCH (1 u ...)); and a
-;;;; value of several parts needs no list of its own: (CONDITIONS (u > 1) AND (v > 0)).
+;;;; What is shown is keys and values in turn: (USED-SURFACES (N1 N2 A2) CONDITIONS ...).  As in the
+;;;; paper, a key may also stand in parentheses with its value, (WRENCH (1 u ...)); and a value of
+;;;; several parts needs no list of its own: (CONDITIONS (u > 1) AND (v > 0)).
 
 (in-package :supergrip)
 
@@ -28,8 +28,8 @@ and more as long as something joins them."
     (values (reverse taken) parts)))
 
 (defun split-entries (list)
-  "Return the entries of LIST, that of a grasp: each a list of its key, which may be none at all, the
-list of the parts of its value, and the form that it begins with."
+  "Return the entries of LIST, that of a grasp: each a list of its key, which may be none at all,
+the list of the parts of its value, and the form that it begins with."
   (loop while list
         collect (let ((part (pop list)))
                   (cond ((and (consp part) (begins-entry-p part))

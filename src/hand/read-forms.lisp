@@ -242,8 +242,8 @@ constants.  NIL if one of them is NIL."
   (and (eq (node-kind node) :input) (member (first (node-args node)) (list +u+ +v+))))
 
 (defun factor-p (form node)
-  "True if FORM, whose node is NODE, is a friction, a distance, or a number other than 1: what may be
-multiplied, each as it stands.  Nobody multiplies by 1."
+  "True if FORM, whose node is NODE, is a friction, a distance, or a number other than 1: a factor as
+it stands.  Nobody multiplies by 1."
   (and (or (atom form) (part-p form "DIST"))
        (or (eq (node-kind node) :input)
            (and (constant-p node) (/= 1 (constant-value node))))))
@@ -360,7 +360,8 @@ is."
 (defun parse-six-entries (form entries scope)
   (let ((nodes (loop for entry in entries
                      for number from 1
-                     collect (let ((*sums* (and *sums* number))) (parse-form entry scope :number)))))
+                     collect (let ((*sums* (and *sums* number)))
+                               (parse-form entry scope :number)))))
     (cond ((/= (length entries) 6)
            (complain form "~d entr~:@p, six are needed: along N O A, about N O A (OFFSET: N1 N2 O1 ~
                            O2 A1 A2)" (length entries)))

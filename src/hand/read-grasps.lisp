@@ -87,8 +87,8 @@ start from."
 ;;; Grasps
 
 (defun grasp-entries (list form)
-  "Return those entries of LIST that have a value, each a list of its key, the value and the form that
-it begins with, complaining of unknown, repeated, empty and missing ones."
+  "Return those entries of LIST that have a value, each a list of its key, the value and the form
+that it begins with, complaining of unknown, repeated, empty and missing ones."
   (let ((entries '()))
     (loop for (key parts place) in (split-entries list)
           do (cond ((not (name-in key +grasp-keys+))
@@ -96,8 +96,8 @@ it begins with, complaining of unknown, repeated, empty and missing ones."
                               (key-suggestion key) +grasp-keys+))
                    ((assoc key entries :test #'name=) (complain place "~a is given twice" key))
                    (t (unless parts
-                        (complain place "~a has no value; a grasp is a list of keys and values in turn"
-                                  key))
+                        (complain place "~a has no value; a grasp is a list of keys and values in ~
+                                         turn" key))
                       (push (list key (entry-value key parts) place (consp parts)) entries))))
     (dolist (key (subseq +grasp-keys+ 0 5))
       (unless (assoc key entries :test #'string=)
@@ -117,17 +117,17 @@ it begins with, complaining of unknown, repeated, empty and missing ones."
            (complain value "~a: the same surface twice" (form-text value)))
           (t grasp-faces))))
 
-(defun parse-palm (entry used form)
+(defun parse-palm (entry used)
   "Return the grasp face of the palm: by default the used face of A.  USED is NIL if it is wrong itself."
   (let ((grasp-face (if entry
                   (grasp-face-index (second entry))
                   (find-if (lambda (grasp-face) (member grasp-face used)) '(5 4)))))
     (cond ((null grasp-face)
-           (complain form (if entry "~a: PALM is one of N1 N2 O1 O2 A1 A2"
+           (complain *form* (if entry "~a: PALM is one of N1 N2 O1 O2 A1 A2"
                               "PALM is missing, and no face of A is used~*")
                      (and entry (form-text (second entry)))))
           ((and used (not (member grasp-face used)))
-           (complain form "the palm faces ~a, which is not one of USED-SURFACES"
+           (complain *form* "the palm faces ~a, which is not one of USED-SURFACES"
                      (svref +grasp-faces+ grasp-face)))
           (t grasp-face))))
 
@@ -145,15 +145,15 @@ it begins with, complaining of unknown, repeated, empty and missing ones."
 
 (defparameter +most-contacts+ 50 "The most contacts that a grasp may have.")
 
-(defun parse-contacts (entry used palm scope form)
+(defun parse-contacts (entry used palm scope)
   "Return the contacts, by default one in the middle of each used face but the palm's."
   (let ((contacts (if entry
                       (and (listp (second entry)) (second entry))
                       (loop for grasp-face in used
                             unless (eql grasp-face palm) collect (list (svref +grasp-faces+ grasp-face) 0 0)))))
-    (cond ((null contacts) (complain form "CONTACTS lists no contact"))
+    (cond ((null contacts) (complain *form* "CONTACTS lists no contact"))
           ((nthcdr +most-contacts+ contacts)
-           (complain form "CONTACTS lists more than ~d contacts" +most-contacts+))
+           (complain *form* "CONTACTS lists more than ~d contacts" +most-contacts+))
           (t (let ((parsed (loop for contact in contacts
                                  collect (parse-contact contact used scope))))
                (and (notany #'null parsed) parsed))))))
@@ -204,10 +204,10 @@ it begins with, complaining of unknown, repeated, empty and missing ones."
                          (let ((value (second (given ,key)))) (at ,key ,form value)))))
         (let* ((used (part "USED-SURFACES" (parse-used value)))
                (palm (and (or used (given "PALM"))
-                          (at "PALM" (parse-palm (given "PALM") used form))))
+                          (at "PALM" (parse-palm (given "PALM") used))))
                (contacts (and (or (and used palm) (given "CONTACTS"))
                               (at "CONTACTS"
-                                  (parse-contacts (given "CONTACTS") used palm scope form))))
+                                  (parse-contacts (given "CONTACTS") used palm scope))))
                (conditions (part "CONDITIONS" (parse-conditions value scope)))
                (offset (part "OFFSET" (parse-form value scope :six)))
                (wrench (part "WRENCH" (watching-sums (parse-form value scope :six))))

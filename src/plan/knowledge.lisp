@@ -170,8 +170,8 @@ being read is among its problems."
 
 (defun accept-knowledge (make &optional told)
   "Return the knowledge that MAKE, a function that returns it and a list of problems, makes.
-Signals a KNOWLEDGE-ERROR with all of them if one is an error; warns if there are only warnings.  Those
-that were TOLD before are not told again."
+Signals a KNOWLEDGE-ERROR with all of them if one is an error; warns if there are only warnings.
+Those that were TOLD before are not told again."
   (multiple-value-bind (knowledge problems) (funcall make)
     (let ((news (remove-if (lambda (problem) (member problem told :test #'equalp)) problems)))
       (cond ((errors-in news)

@@ -127,8 +127,8 @@ given, in a place of its own."
                return (and (namep key) (name-text key)))))
 
 (defun canonical-definition (form)
-  "Return FORM as the data reader would have returned it.  Of what can't be read, the name of the grasp
-and the key are told."
+  "Return FORM as the data reader would have returned it.  Of what can't be read, the name of the
+grasp and the key are told."
   (handler-bind ((syntax-error
                    (lambda (condition)
                      (when (and (part-p form "SETQ") (proper-list-p form) (namep (second form)))
@@ -140,9 +140,9 @@ and the key are told."
 
 (defun edit (form &key before)
   "Put FORM, (RULE ...), (SETQ grasp '(...)), (SETQ GRIPPER '(...)), (SETQ dimension number) or
-(DEFUN ...), into the knowledge in force, in place of the one of its name.  A rule goes before the rule
-BEFORE if that is given; a new one goes before the last by default.  A new grasp goes last.  What one
-SETQ defines takes effect together.  Returns the new knowledge.
+(DEFUN ...), into the knowledge in force, in place of the one of its name.  A rule goes before the
+rule BEFORE if that is given; a new one goes before the last by default.  A new grasp goes last.
+What one SETQ defines takes effect together.  Returns the new knowledge.
 
 On a KNOWLEDGE-ERROR the former knowledge stays in force; the restart CONTINUE goes on with it.  The
 files stay as they are: RELOAD-KNOWLEDGE takes edits back."
@@ -181,7 +181,7 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
 ;;; SETQ at top level
 
 (defun listed-form (form)
-  "Return the list that FORM, '(...), `(...) or (LIST ...), makes, as far as it can be seen; or NIL."
+  "Return the list that FORM, '(...), `(...) or (LIST ...), makes, as far as one sees; or NIL."
   (let ((list (cond ((backquote-p form) (second form))
                     ((and (proper-list-p form) (eq (first form) 'list))
                      (mapcar #'quoted-form (rest form)))
@@ -189,8 +189,8 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
     (and (proper-list-p list) list)))
 
 (defun defining-list-p (list)
-  "True if LIST is meant to be a grasp or a gripper: it begins with USED-SURFACES, or gives values to
-two keys."
+  "True if LIST is meant to be a grasp or a gripper: it begins with USED-SURFACES, or gives values
+to two keys."
   (flet ((count-given (keys)
            (loop for (part next) on list
                  count (and (begins-entry-p part keys)
@@ -227,8 +227,8 @@ two keys."
   (set name value))
 
 (defun assignment (name value environment)
-  "Return the form that gives NAME, which SETQ was told to, the VALUE, a form; or NIL and, if it is a
-definition, the arguments of a SETQ that EDIT takes."
+  "Return a form that gives the variable NAME the VALUE, a form; or, if that is a definition, NIL and
+forms of the name and the value of a SETQ for EDIT."
   (cond ((not (and (namep name) (global-name-p name environment '(box))))
          `(cl:setq ,name ,value))
         ((quote-missing-p name value)
@@ -240,9 +240,9 @@ definition, the arguments of a SETQ that EDIT takes."
         (t `(set-variable ',name ,value))))
 
 (defmacro supergrip-user:setq (&rest pairs &environment environment)
-  "SETQ, but at top level (SETQ name '(USED-SURFACES ...)), (SETQ GRIPPER '(...)) and (SETQ dimension
-number) edit the knowledge in force; several at once take effect together.  Where a variable is meant,
-as inside a function, it is SETQ alone."
+  "SETQ, but at top level (SETQ name '(USED-SURFACES ...)), (SETQ GRIPPER '(...)) and (SETQ
+dimension number) edit the knowledge in force; several at once take effect together.  Where a
+variable is meant, as inside a function, it is SETQ alone."
   (let ((forms '()) (definitions '()))
     (flet ((add (form)
              (when definitions
