@@ -259,9 +259,9 @@ it has + in WRENCH, and OFFSET for the list that the scan damaged."
 
 (test a-warning-is-told-once
   (with-knowledge-restored
-    (is (= 5 (length (warning-texts (eval (read-from-string
-                                           (format nil "(supergrip:edit '~a)"
-                                                   (listing "+" *listed-offset*))))))))
+    (loop repeat 2
+          do (is (= 5 (length (warning-texts (eval-in-user (listing "+" *listed-offset*)))))
+                 "what is typed again is told again"))
     (is (null (warning-texts (supergrip:edit '(setq finger-length 4)))))
     (is (= 5 (length (supergrip:knowledge-warnings supergrip:*knowledge*))))))
 

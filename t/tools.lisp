@@ -76,11 +76,9 @@ Returns its status, standard output and standard error."
 ;;; What is typed
 
 (defun eval-in-user (text)
-  "Return the value of the form TEXT in SUPERGRIP-USER; warnings of undefined variables are not
-printed."
+  "Return the value of the form TEXT in SUPERGRIP-USER; no warning is printed."
   (let ((*package* (find-package :supergrip-user)) (*error-output* (make-broadcast-stream)))
-    (handler-bind ((warning #'muffle-warning))
-      (eval (read-from-string text)))))
+    (eval (read-from-string text))))
 
 (defmacro warning-texts (form)
   "Return the texts of the problems that FORM warns of."

@@ -15,9 +15,20 @@ stays, and the KNOWLEDGE-ERROR says so."
                                  "The knowledge in force stays as it was."))))
           (funcall accept make))))
 
-(defun accept-edit (make)
-  "Return the knowledge that MAKE makes; if it is wrong, the restart CONTINUE returns the former."
-  (restart-case (accept-knowledge make (knowledge-warnings *knowledge*))
+(defun told-of-others (names)
+  "Return the warnings of the knowledge in force that are not about the rules and grasps NAMES."
+  (remove-if (lambda (problem)
+               (loop for name in names
+                       thereis (member (problem-subject problem)
+                                       (list (plain-text "RULE ~a" name)
+                                             (plain-text "GRASP ~a" name))
+                                       :test #'equal)))
+             (knowledge-warnings *knowledge*)))
+
+(defun accept-edit (make names)
+  "Return the knowledge that MAKE makes, in which NAMES are new; if it is wrong, the restart CONTINUE
+returns the former."
+  (restart-case (accept-knowledge make (told-of-others names))
     (continue ()
       :report "Leave the knowledge in force as it was."
       *knowledge*)))
@@ -99,17 +110,17 @@ given, in a place of its own."
   "Return FORMS with the definition FORM put into them (see PUT-FORM)."
   (let* ((name (and (part-p form "SETQ") (= (length form) 3) (second form)))
          (value (and name (quoted-form (third form)))))
-    (flet ((refuse (wanted)
-             (refuse-argument "~a is ~a, not ~a" name wanted (form-text value))))
+    (flet ((refuse (control)
+             (refuse-argument "~@?, not ~a" control name (form-text value))))
       (cond ((not (namep name)) (put-form form forms before))
             ((not (dimension-name-p name))
              (when (atom value)
                (refuse (if (name= name "GRIPPER")
-                           "a list of names and numbers, '(FINGER-LENGTH 3.2 ...)"
-                           "a grasp, a list of keys and values, '(USED-SURFACES (N1 N2 A2) ...)")))
+                           "~a takes names and numbers in turn, '(FINGER-LENGTH 3.2 ...)"
+                           "the grasp ~a takes keys and values in turn, '(USED-SURFACES (N1 N2) ...)")))
              (put-form form forms before))
             ((realp value) (with-dimension name value forms))
-            (t (refuse "a dimension of the gripper, a number"))))))
+            (t (refuse "the dimension ~a of the gripper takes a number"))))))
 
 (defun definitions (form)
   "Return the list of the definitions in FORM, of which a SETQ may hold several."
@@ -126,6 +137,10 @@ given, in a place of its own."
                     (syntax-error () t))
                return (and (namep key) (name-text key)))))
 
+(defun defined-name (form)
+  "Return the name that FORM defines, as far as it has one."
+  (and (consp form) (consp (rest form)) (second form)))
+
 (defun canonical-definition (form)
   "Return FORM as the data reader would have returned it.  Of what can't be read, the name of the
 grasp and the key are told."
@@ -133,7 +148,9 @@ grasp and the key are told."
                    (lambda (condition)
                      (when (and (part-p form "SETQ") (proper-list-p form) (namep (second form)))
                        (dolist (problem (input-error-problems condition))
-                         (setf (problem-subject problem) (plain-text "GRASP ~a" (second form))
+                         (setf (problem-subject problem)
+                               (plain-text "~:[GRASP ~;~]~a" (name= (second form) "GRIPPER")
+                                           (second form))
                                (problem-place problem)
                                (unreadable-key (quoted-form (third form)))))))))
     (canonical form)))
@@ -150,14 +167,15 @@ files stay as they are: RELOAD-KNOWLEDGE takes edits back."
     (change-knowledge (part-p form "RULE")
                       (lambda (forms)
                         (dolist (definition (definitions form) forms)
-                          (setf forms (put-definition definition forms before)))))))
+                          (setf forms (put-definition definition forms before))))
+                      (mapcar #'defined-name (definitions form)))))
 
-(defun change-knowledge (rules-p edit)
+(defun change-knowledge (rules-p edit &optional names)
   "Put into force what becomes of the knowledge when EDIT, a function, changes the forms of its rules,
-or of its grasps if RULES-P is false."
+or of its grasps if RULES-P is false; NAMES are those of what is new."
   (let ((rules (knowledge-rule-file *knowledge*))
         (grasps (knowledge-grasp-file *knowledge*)))
-    (put-into-force #'accept-edit
+    (put-into-force (lambda (make) (accept-edit make names))
                     (lambda ()
                       (if rules-p
                           (build-knowledge (edited-file rules edit) grasps)
@@ -197,7 +215,9 @@ to two keys."
                             (if (consp part)
                                 (rest part)
                                 (and next (not (begins-entry-p next keys))))))))
-    (or (begins-entry-p (first list) '("USED-SURFACES"))
+    (or (and (proper-list-p (first list)) (rest (first list)) (null (rest list))
+             (defining-list-p (first list))) ; a parenthesis too many
+        (begins-entry-p (first list) '("USED-SURFACES"))
         (> (count-given +grasp-keys+) 1)
         (> (count-given +dimensions+) 1))))
 
