@@ -26,7 +26,7 @@ stays, and the KNOWLEDGE-ERROR says so."
              (knowledge-warnings *knowledge*)))
 
 (defun accept-edit (make names)
-  "Return the knowledge that MAKE makes, in which NAMES are new; if it is wrong, the restart CONTINUE
+  "Return the knowledge that MAKE makes, in which NAMES are new; if it is wrong, CONTINUE, a restart,
 returns the former."
   (restart-case (accept-knowledge make (told-of-others names))
     (continue ()
@@ -117,7 +117,7 @@ given, in a place of its own."
              (when (atom value)
                (refuse (if (name= name "GRIPPER")
                            "~a takes names and numbers in turn, '(FINGER-LENGTH 3.2 ...)"
-                           "the grasp ~a takes keys and values in turn, '(USED-SURFACES (N1 N2) ...)")))
+                           "the grasp ~a takes keys and values, '(USED-SURFACES (N1 N2) ...)")))
              (put-form form forms before))
             ((realp value) (with-dimension name value forms))
             (t (refuse "the dimension ~a of the gripper takes a number"))))))
