@@ -106,21 +106,32 @@ given, in a place of its own."
     (loop for form in forms
           collect (if (gripper-form-p form) (changed form) form))))
 
+(defun subject-of (name)
+  "Return what NAME, which SETQ defines, is called in reports."
+  (plain-text (cond ((name= name "GRIPPER") "~a")
+                    ((dimension-name-p name) "GRIPPER, ~a")
+                    (t "GRASP ~a"))
+              name))
+
 (defun put-definition (form forms before)
   "Return FORMS with the definition FORM put into them (see PUT-FORM)."
   (let* ((name (and (part-p form "SETQ") (= (length form) 3) (second form)))
          (value (and name (quoted-form (third form)))))
-    (flet ((refuse (control)
-             (refuse-argument "~@?, not ~a" control name (form-text value))))
+    (flet ((refuse (wanted)
+             (error 'knowledge-error
+                    :problems (list (make-problem
+                                     :subject (subject-of name)
+                                     :text (plain-text "~a is wanted, not ~a" wanted
+                                                       (form-text value)))))))
       (cond ((not (namep name)) (put-form form forms before))
             ((not (dimension-name-p name))
              (when (atom value)
                (refuse (if (name= name "GRIPPER")
-                           "~a takes names and numbers in turn, '(FINGER-LENGTH 3.2 ...)"
-                           "the grasp ~a takes keys and values, '(USED-SURFACES (N1 N2) ...)")))
+                           "a list '(FINGER-LENGTH 3.2 ...)"
+                           "a list '(USED-SURFACES (N1 N2 A2) ...)")))
              (put-form form forms before))
             ((realp value) (with-dimension name value forms))
-            (t (refuse "the dimension ~a of the gripper takes a number"))))))
+            (t (refuse "a number"))))))
 
 (defun definitions (form)
   "Return the list of the definitions in FORM, of which a SETQ may hold several."
@@ -148,9 +159,7 @@ grasp and the key are told."
                    (lambda (condition)
                      (when (and (part-p form "SETQ") (proper-list-p form) (namep (second form)))
                        (dolist (problem (input-error-problems condition))
-                         (setf (problem-subject problem)
-                               (plain-text "~:[GRASP ~;~]~a" (name= (second form) "GRIPPER")
-                                           (second form))
+                         (setf (problem-subject problem) (subject-of (second form))
                                (problem-place problem)
                                (unreadable-key (quoted-form (third form)))))))))
     (canonical form)))
