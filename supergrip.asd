@@ -24,7 +24,8 @@
                              (:file "grasp-entries")
                              (:file "read-gripper")
                              (:file "read-grasps")
-                             (:file "preliminary-assertions")))
+                             (:file "preliminary-assertions")
+                             (:file "box-facts")))
                (:module "plan"
                 :serial t
                 :components ((:file "quality")
@@ -129,6 +130,7 @@
                              (:file "facts")
                              (:file "define-action")
                              (:file "read-rules")
+                             (:file "read-inputs")
                              (:file "symmetry")
                              (:file "match")
                              (:file "rulebase")

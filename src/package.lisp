@@ -18,7 +18,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    ;; the paper's session
    #:box #:forward-chain #:possible-grasps #:*plan*
    ;; asking why
-   #:how #:why-not #:explain-best #:describe-rule #:describe-grasp
+   #:how #:why-not #:explain-best #:describe-rule #:describe-grasp #:describe-input
    #:explain-fact #:explain-why-not #:explain-choice #:write-answer
    #:derivation #:derivation-p #:derivation-predicate #:derivation-faces #:derivation-rule
    #:derivation-binding #:derivation-parts #:derivation-note
@@ -39,10 +39,10 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:difference #:difference-box #:difference-what #:difference-old #:difference-new
    ;; boxes
    #:parse-box #:box-name #:box-size #:box-weight #:box-friction #:box-soft-friction
-   #:box-constrained #:box-force-needed #:box-velocity-needed #:box-value #:define-box-key
+   #:box-constrained #:box-force-needed #:box-velocity-needed #:box-value #:define-box-key #:box-facts
    ;; knowledge
    #:*knowledge* #:load-knowledge #:knowledge #:knowledge-rules #:knowledge-grasps
-   #:knowledge-gripper #:knowledge-warnings #:knowledge-rulebase #:grasp-name #:grasp-form
+   #:declared-inputs #:knowledge-gripper #:knowledge-warnings #:knowledge-rulebase #:grasp-name #:grasp-form
    ;; plans
    #:plan #:*gamma* #:plan-box #:plan-knowledge #:plan-gamma #:plan-verdict #:plan-reason
    #:plan-best #:plan-candidates #:plan-possible #:plan-rejected #:plan-log #:plan-assertions
@@ -71,5 +71,5 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
 (defpackage :supergrip-user
   (:use :cl :supergrip)
   (:shadow #:setq)
-  (:export #:setq)
+  (:export #:setq #:input)
   (:documentation "A package to type in."))

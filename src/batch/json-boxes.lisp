@@ -19,6 +19,7 @@ an array and VALUE is none."
     (cond ((null row) (list value))
           ((not (json-array-p value)) (if (spread-p row) value (list value)))
           ((eq (box-key-type row) :faces) (mapcar #'json-face elements))
+          ((eq (box-key-type row) :facts) (mapcar #'json-list elements))
           ((spread-p row) elements)
           ((eq (box-key-type row) :needs) (list elements))
           (t (list value)))))
@@ -26,6 +27,10 @@ an array and VALUE is none."
 (defun json-face (element)
   "Return ELEMENT, of an array of faces, as the paper has it: a name."
   (if (stringp element) (canonical-name (string-upcase element)) element))
+
+(defun json-list (value)
+  "Return VALUE with lists for arrays."
+  (if (json-array-p value) (mapcar #'json-list (json-array-elements value)) value))
 
 ;;; For the reports
 
@@ -70,8 +75,8 @@ an array and VALUE is none."
                     (when rest (write-string ", " stream)))
            (write-string close stream)))
     (cond ((> depth 32) (write-string "..." stream))
-          ((json-array-p value)
-           (members "[" (json-array-elements value) "]"
+          ((or (json-array-p value) (listp value)) ; see JSON-LIST
+           (members "[" (if (listp value) value (json-array-elements value)) "]"
                     (lambda (element) (write-json-value element stream (1+ depth)))))
           ((json-object-p value)
            (members "{" (json-object-members value) "}"

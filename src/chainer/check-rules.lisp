@@ -88,12 +88,14 @@ not passed yet; and the NAMES of all."
   "Warn if nothing provides what TEST tests.  Returns true if so."
   (unless (provided-p (use-words test) sources)
     (about-use (test)
-      (complain (use-form test)
-                '(:warning "nothing provides ~a~a, so ~:[the rule can never fire~;this always ~
-                            holds~]")
-                (use-words test)
-                (suggestion (use-words test) (sources-names sources))
-                (use-negated test)))
+      (let ((close (suggestion (use-words test) (sources-names sources))))
+        (complain (use-form test)
+                  '(:warning "nothing provides ~a~a, so ~:[the rule can never fire~;this always ~
+                              holds~]~@[; if a box is to say it, add ~a~]")
+                  (use-words test) close (use-negated test)
+                  (and (string= close "")
+                       (input-line (use-words test)
+                                   (length (find-if #'consp (use-form test))))))))
     t))
 
 (defun check-order (test sources)
@@ -138,14 +140,34 @@ not passed yet; and the NAMES of all."
 
 (defun check-rules (forms inputs)
   "Warn of what can't be meant in FORMS, the rules of a file in their order (see WITH-PROBLEMS).
-INPUTS are the predicates that the input provides, as in BUILD-RULEBASE."
+INPUTS are the predicates that the input always provides, as in BUILD-RULEBASE."
   (multiple-value-bind (tests conclusions) (collect-uses forms)
-    (let ((sources (collect-sources conclusions inputs)))
+    (let* ((declared (input-uses forms))
+           (sources (collect-sources conclusions (append inputs (mapcar (lambda (use)
+                                                                          (list (list (use-words use))))
+                                                                        declared)))))
       (dolist (test tests)
         (or (check-provided test sources)
             (check-order test sources)))
       (check-contradictions tests)
-      (check-unused tests conclusions sources))))
+      (check-unused tests conclusions sources)
+      (check-untested declared tests))))
+
+(defun input-uses (forms)
+  "Return the sentences that the (INPUT ...) forms among FORMS declare."
+  (loop for form in (remove-if-not #'input-form-p forms)
+        for use = (sentence-use (rest form) form nil (input-subject form) nil)
+        when use collect use))
+
+(defun check-untested (declared tests)
+  "Warn of what is DECLARED, uses, and what none of TESTS tests."
+  (let ((tested (make-hash-table :test #'equal)))
+    (dolist (test tests)
+      (setf (gethash (use-words test) tested) t))
+    (dolist (use declared)
+      (unless (or (use-negated use) (gethash (use-words use) tested))
+        (let ((*subject* (use-name use)) (*place* nil))
+          (complain (use-form use) '(:warning "no rule tests it")))))))
 
 (defun check-unused (tests conclusions sources)
   "Warn of conclusions that no rule tests and that look like something known that one does."

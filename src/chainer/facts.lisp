@@ -5,7 +5,8 @@
 (defstruct predicate
   "What a sentence says of its surfaces.  WORDS are its strings, ARITY the number of surfaces that
 its lists have (0 for an ordinary predicate such as OBJECT HAS FREE CORNERS), INDEX its number in
-its rule base.  GIVEN is true if the input provides it."
+its rule base.  GIVEN is true if the input provides it: an INPUT-DECLARATION, if a rule
+file declares it."
   (words '() :type list)
   (arity 0 :type (integer 0 6))
   (index 0 :type (unsigned-byte 24))
@@ -19,6 +20,19 @@ its rule base.  GIVEN is true if the input provides it."
 (defun predicate-text (predicate)
   "Return the words of PREDICATE as one string."
   (format nil "~{~a~^ ~}" (predicate-words predicate)))
+
+(defstruct (input-declaration (:conc-name declaration-))
+  "That the input may say a sentence: FORM is the (INPUT ...), COMMENT the list of the lines before it
+in its file."
+  (form '() :type list) (comment '() :type list))
+
+(defun declared-p (predicate)
+  "True if a rule file declares PREDICATE by (INPUT ...)."
+  (input-declaration-p (predicate-given predicate)))
+
+(defun input-line (words count)
+  "Return the line that declares the sentence WORDS, one string, with a list of COUNT surfaces."
+  (format nil "(INPUT ~a~@[ (~{S~d~^ ~})~])" words (loop for number from 1 to count collect number)))
 
 ;;; What is remembered of a predicate is kept twice: as bits, to test, and in order, to walk.
 

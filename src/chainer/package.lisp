@@ -13,10 +13,11 @@ one generic function.")
    #:face-list-elements #:face-list-names
    ;; predicates and working memory
    #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
-   #:predicate-given
+   #:predicate-given #:declared-p #:declaration-form #:declaration-comment #:input-line
    #:memory #:make-memory #:clear-memory #:memory-client #:memory-log
    #:recall #:remember #:put-fact #:facts #:assertions #:saved-facts #:save-facts #:restore-facts
-   ;; rules
+   ;; declarations and rules
+   #:input-form-p #:input-words
    #:rule #:rule-name #:rule-form #:rule-index #:rule-clauses #:rule-actions #:rule-variables
    #:rule-line #:rule-file #:rule-comment
    #:clause #:clause-negated #:clause-predicate #:clause-terms #:clause-form
@@ -27,7 +28,7 @@ one generic function.")
    ;; actions
    #:define-action #:compile-action #:action-verbs #:verb-key #:action-conclusion #:action-mentions
    #:symmetric-action-p #:describe-action #:sentence-text
-   #:loose-surface-p #:list-surfaces #:parse-surfaces #:parse-sentence
+   #:loose-surface-p #:list-surfaces #:parse-surfaces #:parse-sentence #:negation-in
    #:term-variable-p #:term-value #:instantiate #:*rule*
    ;; running
    #:run-rules #:stop #:stop-verdict #:stop-rule #:stop-words #:make-stop

@@ -130,9 +130,12 @@ have yet are allowed if BIND is true.  Complains, and returns NIL and true, of a
                  (make-predicate :words words :arity arity :given given
                                  :index (hash-table-count (rulebase-table *rulebase*)))))
           ((/= arity (predicate-arity predicate))
-           (complain form "~a takes ~[no list of surfaces~;1 surface~:;~:*~d surfaces~]; here ~
-                           it has ~[none~:;~:*~d~]"
-                     (predicate-text predicate) (predicate-arity predicate) arity))
+           (complain form "~a takes ~[no list of surfaces~;1 surface~:;~:*~d surfaces~]~@[, as ~a ~
+                           says~]; here it has ~[none~:;~:*~d~]"
+                     (predicate-text predicate) (predicate-arity predicate)
+                     (and (declared-p predicate)
+                          (form-text (declaration-form (predicate-given predicate))))
+                     arity))
           (t predicate))))
 
 (defun loose-surface-p (name)
@@ -145,6 +148,9 @@ have yet are allowed if BIND is true.  Complains, and returns NIL and true, of a
   "Return the sentence WORDS, those that are surfaces put into a list at its end, before LIST."
   (append (remove-if #'loose-surface-p words)
           (list (append (remove-if-not #'loose-surface-p words) list))))
+
+(defun negation-in (words)
+  (find-if (lambda (word) (or (name= word "NO") (name= word "NOT"))) words))
 
 (defun parse-sentence (words form bind)
   "Return the predicate and the terms of the sentence WORDS, the words of FORM that matter: names,
@@ -238,7 +244,7 @@ NIL after a complaint."
     (cond ((not (part-p form "RULE"))
            (let ((*subject* nil))
              (complain form "~a is not a rule: a rule file holds (RULE name (IF clause...) (THEN ~
-                             action...))" (form-text form))))
+                             action...)) and (INPUT sentence)" (form-text form))))
           ((or (null name) (/= (length form) 4)
                (not (part-p (third form) "IF")) (not (part-p (fourth form) "THEN")))
            (complain form "a rule is (RULE name (IF clause...) (THEN action...))"))

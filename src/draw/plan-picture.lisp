@@ -97,9 +97,13 @@
           (constrained-text (plan-box plan))))
 
 (defun constrained-text (box)
-  (if (box-constrained box)
-      (format nil "Constrained: ~{~a~^, ~}." (box-constrained box))
-      "No face is constrained."))
+  "Return which faces of BOX are constrained, and the facts of its own, for those who can't see them."
+  (format nil "~:[No face is constrained~;~:*Constrained: ~{~a~^, ~}~].~@[ Facts of its own: ~{~a~^, ~}.~]"
+          (box-constrained box) (fact-texts box)))
+
+(defun fact-texts (box)
+  "Return the facts of its own that BOX has, each as \"FRAGILE (Z1)\"."
+  (loop for fact in (box-facts box) collect (format nil "~{~a~^ ~}" fact)))
 
 (defun candidate-picture (candidate plan)
   "Return the picture of CANDIDATE, which is possible in PLAN."
@@ -109,8 +113,9 @@
                                     (box-text (plan-box plan)))
                         (candidate-description candidate plan subject))
       (draw-heading (candidate-title candidate)
-                    (list (format nil "~a; ~a" (box-text (plan-box plan))
-                                  (matching-text (candidate-matching candidate))))
+                    (list (format nil "~a; ~a~@[; ~{~a~^, ~}~]" (box-text (plan-box plan))
+                                  (matching-text (candidate-matching candidate))
+                                  (fact-texts (plan-box plan))))
                     1000)
       (draw-main-view subject (list 24 72 630 (if cut 372 520)))
       (when cut
@@ -128,7 +133,9 @@
                         (format nil "Can't be grasped: ~a" (box-text box))
                         (format nil "A box, ~a, that can't be grasped. ~a ~a" (box-text box)
                                 (constrained-text box) (plan-reason plan)))
-      (draw-heading "Can’t be grasped" (list (box-text box)) 1000)
+      (draw-heading "Can’t be grasped"
+                    (list (format nil "~a~@[; ~{~a~^, ~}~]" (box-text box) (fact-texts box)))
+                    1000)
       (draw-main-view subject '(24 72 630 420))
       (draw-flat-views subject 670 72 306 420)
       (loop for line in reason

@@ -112,6 +112,7 @@ forces in units of one finger’s greatest normal force, torques in their produc
               ("Constrained faces" ,(if (box-constrained box)
                                         (list-text (box-constrained box))
                                         "none"))
+              ,@(and (box-facts box) `(("Facts of its own" ,(list-text (fact-texts box)))))
               ("Selection parameter γ" ,(quantity gamma 4)))
             do (markup (:tr (:th :scope "row" (say "~a" name)) (:td (say "~a" value)))))))))
 

@@ -11,7 +11,8 @@
   :NUMBER        a number from 0
   (:NUMBERS n)   N numbers above 0
   :NEEDS         a list of six numbers from 0 to 1
-  :FACES         faces, any number of them.
+  :FACES         faces, any number of them
+  :FACTS         sentences, any number of them: see box-facts.lisp.
 TAKES says so in words, EXAMPLE is a list of what may follow.  OPTIONAL is true if a box may lack it.
 READER is a function of a box; SLOT, a keyword, names the slot of its own, if it has one.  WORDS name a value that may be
 varied, \"the weight\", NIL if none may."
@@ -55,13 +56,16 @@ is among the others of the box, for BOX-VALUE."
   :slot :velocity :words "the velocity needed")
 (define-box-key :name :text "one string" ("pencil")
   :slot :name :optional t)
+(define-box-key :facts :facts "lists of words, each of which may end in one list of faces"
+  ((:fragile (:z1)) (:wet))
+  :slot :facts :optional t)
 
 (defun find-key (key)
   (find key *box-keys* :key #'box-key-key))
 
 (defun box-value (box key)
   "Return what BOX gives for KEY, a symbol or a string: as the description has it, or NIL.  For keys that
-DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles."
+DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles.  BOX-FACTS gives the facts."
   (let ((row (find (and (or (symbolp key) (stringp key)) (string-upcase key)) *box-keys*
                    :key #'box-key-key :test #'string=)))
     (if row
@@ -71,7 +75,7 @@ DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles."
 
 (defun spread-p (row)
   "True if the values of the key ROW follow it one by one; in JSON they are an array."
-  (or (eq (box-key-type row) :faces) (consp (box-key-type row))))
+  (or (member (box-key-type row) '(:faces :facts)) (consp (box-key-type row))))
 
 ;;; Notations.  A description is checked in the paper's form; messages speak as it was written.
 
@@ -188,16 +192,19 @@ its clause, give.  NIL after a complaint."))
       (refuse-value row values)
       (number-list row (first values) 6 0 1 values 0)))
 
+(defun parse-face (value spot)
+  "Return the face that VALUE at SPOT names, or NIL after a complaint."
+  (or (and (or (namep value) (stringp value)) (face-index value))
+      (complain spot "~a is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2~:[~;, without ~
+                      parentheses of their own~]"
+                (value-text *notation* value) (consp value))))
+
 (defmethod parse-values ((type (eql :faces)) row values)
   (let ((set 0) (good t))
     (loop for value in values
           for number from 0
-          do (let ((face (and (or (namep value) (stringp value)) (face-index value))))
-               (cond ((null face)
-                      (setf good (complain (value-spot row number)
-                                           "~a is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 ~
-                                            Z2~:[~;, without parentheses of their own~]"
-                                           (value-text *notation* value) (consp value))))
+          do (let ((face (parse-face value (value-spot row number))))
+               (cond ((null face) (setf good nil))
                      ((logbitp face set)
                       (setf good (complain (value-spot row number) "~a is constrained twice"
                                            (value-text *notation* value))))

@@ -8,7 +8,7 @@
 (defstruct (box (:conc-name %box-) (:constructor %make-box) (:copier nil) (:predicate box-p))
   "A box and what is to be done with it.  SIZE along X Y Z in cm; WEIGHT in finger forces;
 FRICTION the coefficient u; SOFT-FRICTION v, that of the soft finger's torque, in cm; CONSTRAINED a set of faces;
-FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
+FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z; FACTS a list of BOX-FACTs."
   (name nil :read-only t)
   (size nil :type three :read-only t)
   (weight 0d0 :type double-float :read-only t)
@@ -17,6 +17,7 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z."
   (constrained 0 :type (unsigned-byte 6) :read-only t)
   (force nil :type six :read-only t)
   (velocity nil :type six :read-only t)
+  (facts '() :type list :read-only t)
   (others '() :type list :read-only t)  ; a plist of the values of keys without a slot of their own
   (line nil :read-only t))
 

@@ -80,8 +80,8 @@ have ended it."
 (defun parse-box (form &key file line)
   "Return the box that FORM describes: the paper's list
 ((SIZE 12 2 2) (WEIGHT 0.2) (U 0.8) (V 0.2) (CONSTRAINED Z2 X1) (FORCE-NEEDED (1 0.8 0.8 0.3 1 1))
-(VELOCITY-NEEDED (0 0.8 0.8 0 0.8 0.8))), in any order, with an optional (NAME \"pencil\"), also
-inside (SETQ BOX '...).  Names may be of any package.  FILE and LINE are used in reports.
+(VELOCITY-NEEDED (0 0.8 0.8 0 0.8 0.8))), in any order, with an optional (NAME \"pencil\") and
+(FACTS (FRAGILE (Z1)) (WET)), also inside (SETQ BOX '...).  Names may be of any package.  FILE and LINE are used in reports.
 
 Sizes in cm; weight in units of one finger's greatest normal force; V in cm; needs from 0 to 1.
 Signals a BOX-ERROR that holds all that is wrong with it."
@@ -96,11 +96,15 @@ Signals a BOX-ERROR that holds all that is wrong with it."
       (multiple-value-bind (description *path*) (unwrap-box form)
         (check-description description))
     (when problems
-      (dolist (problem problems)
-        (setf (problem-file problem) file)
-        (unless (problem-line problem) (setf (problem-line problem) line)))
-      (error 'box-error :problems problems))
+      (refuse-box problems file line))
     (make-box values line)))
+
+(defun refuse-box (problems file line)
+  "Signal a BOX-ERROR that holds PROBLEMS, those of the box in FILE that begins at LINE."
+  (dolist (problem problems)
+    (setf (problem-file problem) file)
+    (unless (problem-line problem) (setf (problem-line problem) line)))
+  (error 'box-error :problems problems))
 
 (defun make-box (values line)
   "Return the box of VALUES, a plist that has all that a box must have."
@@ -116,7 +120,7 @@ Signals a BOX-ERROR that holds all that is wrong with it."
   "Return a box as BOX with VALUE for the key ROW."
   (let ((values (loop for other in *box-keys*
                       collect (box-key-key other)
-                      collect (box-value box (box-key-key other)))))
+                      collect (funcall (box-key-reader other) box))))
     (setf (getf values (box-key-key row)) value)
     (make-box values (%box-line box))))
 

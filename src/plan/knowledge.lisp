@@ -38,6 +38,13 @@ were made of, COMPLAINTS the PROBLEMs that did not prevent it."
 (SLIPPERY-U: a coefficient)."
   (copy-alist (graspbase-gripper (knowledge-graspbase knowledge))))
 
+(defun declared-inputs (knowledge)
+  "Return what the rule file of KNOWLEDGE declares by (INPUT ...), in its order: a new list of
+(WORDS COUNT), WORDS a list of strings, COUNT how many faces its lists have."
+  (loop for predicate across (rulebase-predicates (knowledge-rulebase knowledge))
+        when (declared-p predicate)
+          collect (list (copy-list (predicate-words predicate)) (predicate-arity predicate))))
+
 (defstruct data-file
   "A rule or grasp file that was read: its PATH, if it is one, its NAME in reports, its FORMS, LINES,
 a table from form to line, COMMENTS, one from form to comment, and the PROBLEMS of reading it."
@@ -78,13 +85,17 @@ What is wrong is left out."
 (defun check-knowledge (graspbase rulebase rule-file grasp-file)
   "Warn of what is valid in rules and grasps but can't be meant."
   (with-data-file (rule-file)
-    (when (null (data-file-forms rule-file))
+    (when (null (rule-forms rule-file))
       (complain nil "there is no rule"))
     (check-rules (data-file-forms rule-file) (input-predicates)))
   ;; Where a rule was left out, that nothing tries a grasp is no news.
-  (when (= (length (rulebase-rules rulebase)) (length (data-file-forms rule-file)))
+  (when (= (length (rulebase-rules rulebase)) (length (rule-forms rule-file)))
     (with-data-file (grasp-file)
       (check-tried graspbase (data-file-forms rule-file)))))
+
+(defun rule-forms (rule-file)
+  "Return the forms of RULE-FILE that declare no input."
+  (remove-if #'input-form-p (data-file-forms rule-file)))
 
 (defun tried-names (form)
   "Return the names of the grasps that the rule FORM tries."

@@ -128,10 +128,13 @@ use no constrained face, equivalent ones once.  Other arguments as for PLAN."
   (make-memory (knowledge-rulebase knowledge) (make-workspace (knowledge-graspbase knowledge))))
 
 (defun prepare-memory (memory box knowledge gamma)
-  "Make MEMORY, an empty one, ready for a plan for BOX: it holds the preliminary assertions, and its
-workspace has tried nothing yet.  Return it."
+  "Make MEMORY, an empty one, ready for a plan for BOX: it holds the preliminary assertions and the facts
+of BOX, and its workspace has tried nothing yet.  Return it."
   (start-workspace (memory-client memory) box gamma)
   (assert-box memory (knowledge-inputs knowledge) box)
+  (when (%box-facts box)
+    (assert-facts memory box (knowledge-rulebase knowledge)
+                  (or (data-file-name (knowledge-rule-file knowledge)) "the rules")))
   memory)
 
 (defun start-plan (box knowledge gamma)

@@ -19,6 +19,16 @@
         ((not (same-choice-p old new)) :grasp)
         ((> (abs (- (plan-quality old) (plan-quality new))) +tie+) :quality)))
 
+(defun box-known-to (knowledge box other)
+  "Return BOX without the facts that OTHER declares and KNOWLEDGE does not: no rule of it tests them."
+  (flet ((declared-p (fact knowledge) (fact-predicate fact (knowledge-rulebase knowledge))))
+    (let ((facts (remove-if (lambda (fact)
+                              (and (declared-p fact other) (not (declared-p fact knowledge))))
+                            (%box-facts box))))
+      (if (equal facts (%box-facts box))
+          box
+          (box-with box (find-key :facts) facts)))))
+
 (defun one-box-p (object)
   "True if OBJECT is a box, or describes one, and is no list of boxes."
   (or (and object (atom object))
@@ -28,18 +38,20 @@
 
 (defun compare-knowledge (old new boxes &key (gamma *gamma*) (stream *standard-output*))
   "Plan each of BOXES, or the one box, with the knowledge OLD and with NEW; write what differs to
-STREAM (NIL: do not) and return a list of DIFFERENCEs, in the order of BOXES."
+STREAM (NIL: do not) and return a list of DIFFERENCEs, in the order of BOXES.  A fact of a box that
+only one of the two declares is left out for the other."
   (mapc #'check-knowledge-argument (list old new))
   (unless (or (box-p boxes) (proper-list-p boxes))
     (refuse-argument "~a is not a list of boxes" (form-text boxes)))
   (let* ((boxes (if (one-box-p boxes) (list boxes) boxes))
          (differences
-          (loop for box in boxes
-                for old-plan = (plan box :knowledge old :gamma gamma)
-                for new-plan = (plan box :knowledge new :gamma gamma)
+          (loop for given in boxes
+                for box = (if (box-p given) given (parse-box given))
+                for old-plan = (plan (box-known-to old box new) :knowledge old :gamma gamma)
+                for new-plan = (plan (box-known-to new box old) :knowledge new :gamma gamma)
                 for what = (plan-difference old-plan new-plan)
                 when what
-                  collect (make-difference :box (plan-box old-plan) :what what
+                  collect (make-difference :box box :what what
                                            :old old-plan :new new-plan))))
     (when stream
       (dolist (difference differences)

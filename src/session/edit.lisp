@@ -45,9 +45,12 @@ hold into force.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
                        (read-data-file (file grasps (knowledge-grasp-file *knowledge*))))))))
 
 (defun same-definition-p (form other)
-  "True if FORM and OTHER define the same name in the same way."
+  "True if FORM and OTHER define the same name, or declare the same sentence, in the same way."
   (and (consp form) (consp other) (consp (rest form)) (consp (rest other))
-       (name= (first form) (first other)) (name= (second form) (second other))))
+       (name= (first form) (first other))
+       (if (input-form-p form)
+           (equal (mapcar #'symbol-name (input-words form)) (mapcar #'symbol-name (input-words other)))
+           (name= (second form) (second other)))))
 
 (defun place-of-new (form forms before)
   "Return where in FORMS the new FORM goes: before the rule BEFORE, or, if that is NIL, a rule before
@@ -58,7 +61,8 @@ the last one, which keeps the best; anything else at the end."
                           forms)
              (error 'no-rule-error :name before
                                    :known (mapcar #'rule-name (knowledge-rules *knowledge*)))))
-        ((part-p form "RULE") (max 0 (1- (length forms))))
+        ((part-p form "RULE")
+         (or (position-if-not #'input-form-p forms :from-end t) (length forms)))
         (t (length forms))))
 
 (defun put-form (form forms before)
@@ -165,15 +169,15 @@ grasp and the key are told."
     (canonical form)))
 
 (defun edit (form &key before)
-  "Put FORM, (RULE ...), (SETQ grasp '(...)), (SETQ GRIPPER '(...)), (SETQ dimension number) or
-(DEFUN ...), into the knowledge in force, in place of the one of its name.  A rule goes before the
-rule BEFORE if that is given; a new one goes before the last by default.  A new grasp goes last.
-What one SETQ defines takes effect together.  Returns the new knowledge.
+  "Put FORM, (RULE ...), (INPUT ...), (SETQ grasp '(...)), (SETQ GRIPPER '(...)), (SETQ dimension
+number) or (DEFUN ...), into the knowledge in force, in place of the one of its name.  A rule goes
+before the rule BEFORE if that is given; a new one goes before the last by default.  A new grasp
+goes last.  What one SETQ defines takes effect together.  Returns the new knowledge.
 
 On a KNOWLEDGE-ERROR the former knowledge stays in force; the restart CONTINUE goes on with it.  The
 files stay as they are: RELOAD-KNOWLEDGE takes edits back."
   (let ((form (canonical-definition form)))
-    (change-knowledge (part-p form "RULE")
+    (change-knowledge (or (part-p form "RULE") (input-form-p form))
                       (lambda (forms)
                         (dolist (definition (definitions form) forms)
                           (setf forms (put-definition definition forms before))))
@@ -191,19 +195,35 @@ or of its grasps if RULES-P is false; NAMES are those of what is new."
                           (build-knowledge rules (edited-file grasps edit)))))))
 
 (defun forget (name)
-  "Take the rule or the grasp NAME, a symbol or a string, out of the knowledge in force, and return
-the new knowledge.  On a KNOWLEDGE-ERROR, as when a rule still tries the grasp, the former stays.
+  "Take the rule or the grasp NAME, a symbol or a string, or the declaration of the words NAME, out of
+the knowledge in force, and return the new knowledge.  On a KNOWLEDGE-ERROR, as when a rule still tries the grasp, the former stays.
 The files stay as they are: RELOAD-KNOWLEDGE takes it back."
-  (let* ((name (check-name name))
-         (rule-p (find-rule (knowledge-rulebase *knowledge*) name)))
-    (flet ((of-name-p (form)
-             (and (part-p form (if rule-p "RULE" "SETQ")) (name= (second form) name))))
-      (change-knowledge rule-p (lambda (forms) (remove-if #'of-name-p forms))))))
+  (let ((declaration (named-declaration name)))
+    (if declaration
+        (change-knowledge t (lambda (forms)
+                              (remove-if (lambda (form) (same-definition-p declaration form)) forms)))
+        (let* ((name (check-name name))
+               (rule-p (find-rule (knowledge-rulebase *knowledge*) name)))
+          (flet ((of-name-p (form)
+                   (and (part-p form (if rule-p "RULE" "SETQ")) (name= (second form) name))))
+            (change-knowledge rule-p (lambda (forms) (remove-if #'of-name-p forms))))))))
+
+(defun named-declaration (name)
+  "Return the (INPUT ...) in force of the words NAME, unless a rule or a grasp has this name; or NIL."
+  (let* ((words (name-of name))
+         (predicate (and words (not (in-force-p words))
+                         (find-predicate (knowledge-rulebase *knowledge*) (list words)))))
+    (and predicate (declared-p predicate) (declaration-form (predicate-given predicate)))))
 
 (defmacro rule (&whole form name &rest parts)
   "Put the rule NAME into the knowledge in force, as EDIT does: (RULE name (IF ...) (THEN ...))."
   (declare (ignore name parts))
   `(edit ',(cons 'rule (rest form))))
+
+(defmacro supergrip-user:input (&whole form &rest sentence)
+  "Declare that boxes may say SENTENCE, as EDIT does: (INPUT FRAGILE (s1))."
+  (declare (ignore sentence))
+  `(edit ',(cons 'input (rest form))))
 
 ;;; SETQ at top level
 

@@ -9,14 +9,15 @@
   "What is said of a name that a plan's knowledge lacks.")
 
 (define-condition no-rule-error (supergrip-error)
-  ((name :initarg :name) (known :initarg :known) (hint :initarg :hint :initform nil))
+  ((name :initarg :name) (known :initarg :known) (hint :initarg :hint :initform nil)
+   (kind :initarg :kind :initform "rule or grasp"))
   (:report (lambda (condition stream)
-             (with-slots (name known hint) condition
+             (with-slots (name known hint kind) condition
                (cond (hint (format stream "~a is ~a" (form-text name) hint))
                      ((null (name-of name))
                       (format stream "~a is not a name: rules and grasps are named by symbols or strings"
                               (form-text name)))
-                     (t (format stream "there is no rule or grasp ~a~a; there are ~a~@[~%~a~]"
+                     (t (format stream "there is no ~a ~a~a; there are ~a~@[~%~a~]" kind
                                 (form-text (make-symbol (name-of name)))
                                 (suggestion (name-of name) known) (listed known)
                                 (and (in-force-p (name-of name)) +later-plan+)))))))

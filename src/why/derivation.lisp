@@ -34,7 +34,7 @@ input, where it comes from."
     (if input
         (funcall (input-row-note (prepared-input-row input))
                  face-list (plan-box plan) (prepared-input-threshold input))
-        "an input")))
+        "the box says so")))
 
 ;;; A fact follows only from what was known before it, so the derivations of a whole log are made in its
 ;;; order, each from those before: however long a chain is, nothing nests.

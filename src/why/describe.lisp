@@ -2,19 +2,32 @@
 
 (in-package :supergrip)
 
+(defun given-predicate (name knowledge)
+  "Return the predicate of the words NAME, a string, that the input of KNOWLEDGE may give, or NIL."
+  (let ((predicate (find-predicate (knowledge-rulebase knowledge) (list name))))
+    (and predicate (predicate-given predicate) predicate)))
+
 (defun find-named (name knowledge kind)
-  "Return the rule or grasp, as KIND says, NAME of KNOWLEDGE, or signal a NO-RULE-ERROR."
+  "Return the rule, grasp or input, as KIND says, NAME of KNOWLEDGE, or signal a NO-RULE-ERROR."
   (let* ((word (name-of name))
          (rule (and word (find-rule (knowledge-rulebase knowledge) word)))
          (grasp (and word (find-grasp (knowledge-graspbase knowledge) word)))
-         (rule-p (eq kind :rule)))
-    (or (if rule-p rule grasp)
+         (input (and word (given-predicate word knowledge))))
+    (or (ecase kind (:rule rule) (:grasp grasp) (:input input))
         (error 'no-rule-error :name name
                               :hint (cond (rule "a rule: see DESCRIBE-RULE")
-                                          (grasp "a grasp: see DESCRIBE-GRASP"))
-                              :known (if rule-p
-                                         (mapcar #'rule-name (knowledge-rules knowledge))
-                                         (mapcar #'grasp-name (knowledge-grasps knowledge)))))))
+                                          (grasp "a grasp: see DESCRIBE-GRASP")
+                                          (input "an input: see DESCRIBE-INPUT"))
+                              :known (ecase kind
+                                       (:rule (mapcar #'rule-name (knowledge-rules knowledge)))
+                                       (:grasp (mapcar #'grasp-name (knowledge-grasps knowledge)))
+                                       (:input (known-inputs knowledge)))
+                              :kind (if (eq kind :input) "input" "rule or grasp")))))
+
+(defun known-inputs (knowledge)
+  "Return the words of all that the input of KNOWLEDGE may give, strings."
+  (loop for predicate across (rulebase-predicates (knowledge-rulebase knowledge))
+        when (predicate-given predicate) collect (predicate-text predicate)))
 
 (defun write-comment (comment stream)
   "Write COMMENT, the lines before a form: its mark, printed or reconstructed, and the reason."
@@ -32,9 +45,15 @@
         when (find predicate (rule-clauses rule) :key #'clause-predicate)
           collect (rule-name rule)))
 
+(defun input-source (predicate)
+  (if (declared-p predicate)
+      (format nil "the box, as ~a declares"
+              (full-text (declaration-form (predicate-given predicate))))
+      "the input"))
+
 (defun sources (predicate knowledge)
   "Return who provides PREDICATE: names of rules, and \"the input\"."
-  (append (and (predicate-given predicate) '("the input"))
+  (append (and (predicate-given predicate) (list (input-source predicate)))
           (loop for rule in (knowledge-rules knowledge)
                 when (find predicate (rule-actions rule) :key #'action-predicate)
                   collect (rule-name rule))))
@@ -66,6 +85,31 @@ who tests what it derives.  Returns the rule."
             (mapcar #'full-text clauses) (mapcar #'full-text actions))))
 
 (defun full-text (form) (form-text form nil))
+
+(defun describe-input (name &key (knowledge *knowledge*) (stream *standard-output*))
+  "Write to STREAM what the input may say in the words NAME: its declaration, where it is from, and
+which rules test it; or, of a preliminary assertion, its threshold.  Returns its predicate."
+  (let* ((predicate (find-named name knowledge :input))
+         (words (predicate-text predicate))
+         (surfaces (loop for number from 1 to (predicate-arity predicate)
+                         collect (format nil "S~d" number)))
+         (input (find predicate (knowledge-inputs knowledge) :key #'prepared-input-predicate)))
+    (plainly
+      (cond ((declared-p predicate)
+             (format stream "~a~%" (full-text (declaration-form (predicate-given predicate))))
+             (write-comment (declaration-comment (predicate-given predicate)) stream)
+             (format stream "In words: a box may say that ~a.  What it does not say is false.~%"
+                     (sentence-text words surfaces)))
+            (t (format stream "~a~@[ (~{~a~^ ~})~] is a preliminary assertion~@[; its threshold is ~a~].~%"
+                       words surfaces (threshold-text input))))
+      (format stream "It is tested by ~a.~%"
+              (listed (or (testers predicate knowledge) '("no rule")))))
+    predicate))
+
+(defun threshold-text (input)
+  "Return the threshold of the prepared INPUT, \"FINGER-WIDTH, 0.6\", or NIL if it has none."
+  (let ((name (input-row-dimension (prepared-input-row input))))
+    (and name (format nil "~a, ~a" name (number-text (prepared-input-threshold input))))))
 
 (defun describe-grasp (name &key (knowledge *knowledge*) (stream *standard-output*))
   "Write the grasp NAME to STREAM: its form, in words, where it is from, and which rules try it.
