@@ -164,6 +164,7 @@
                (:file "plan")
                (:file "errors")
                (:file "preliminary-assertions")
+               (:file "box-facts")
                (:file "try-steps")
                (:file "engines")
                (:file "forms")

@@ -257,6 +257,58 @@ Returns what the rules said, a list of strings, and the stop."
              (is (= 1 (length reports)))
              (is (eql 0 (search report (or (first reports) ""))) "~a~%gave ~s" text reports))))
 
+(defun declared (rulebase)
+  (loop for predicate across (supergrip-chainer:rulebase-predicates rulebase)
+        when (supergrip-chainer:declared-p predicate)
+          collect (list (supergrip-chainer:predicate-text predicate)
+                        (supergrip-chainer:predicate-arity predicate))))
+
+(test what-the-input-may-say-is-declared
+  (multiple-value-bind (rulebase reports)
+      (build "(RULE A (IF (FRAGILE (s1)) (OBJECT HAS NO LID)) (THEN (REMEMBER P (s1))))
+              (INPUT WET) (INPUT FRAGILE (s1)) (INPUT OBJECT HAS LID) (INPUT LIKE (s2 s1))")
+    (is (null reports))
+    (is (equal '(("WET" 0) ("FRAGILE" 1) ("OBJECT HAS LID" 0) ("LIKE" 2)) (declared rulebase)))
+    (is (equal '("A: P Z1")
+               (run-on-facts rulebase (supergrip-chainer:make-memory rulebase) '((fragile z1)))))))
+
+(test wrong-declarations-are-refused
+  (loop for (text report) in
+        '(("(INPUT)" "INPUT: an empty sentence")
+          ("(INPUT (s1))" "INPUT: an empty sentence")
+          ("(INPUT NOT WET)"
+           "INPUT NOT WET: a negation can't be declared: what the input does not say is false")
+          ("(INPUT WET) (INPUT WET (s1))" "INPUT WET: (INPUT WET) declares it already")
+          ("(INPUT SMALL (s1 s2))"
+           "INPUT SMALL: it is a preliminary assertion, which holds or not whatever the input says")
+          ("(INPUT LIKE (Z1 s2))"
+           "INPUT LIKE: a declaration holds for all surfaces: (INPUT LIKE (S1 S2))")
+          ("(INPUT FRAGILE s1)"
+           "INPUT FRAGILE S1: surfaces go in a list of their own, at the end: (FRAGILE (S1))")
+          ("(INPUT WET) (RULE A (IF (WET (s1))) (THEN (REMEMBER P)))"
+           "RULE A, clause 1: WET takes no list of surfaces, as (INPUT WET) says; here it has 1"))
+        do (is (equal (list report) (nth-value 1 (build text))) "~a" text)))
+
+(defun warnings-of (text)
+  (mapcar #'supergrip-data:problem-text
+          (nth-value 1 (supergrip-data:with-problems
+                         (supergrip-chainer:check-rules (rule-forms text) *inputs*)))))
+
+(test the-checker-learns-of-declarations
+  (is (null (warnings-of "(RULE A (IF (FRAGILE (s1))) (THEN (REMEMBER P)))
+                          (RULE B (IF (P)) (THEN (CANT DO)))
+                          (INPUT FRAGILE (s1))"))
+      "wherever they stand")
+  (is (equal '("nothing provides FRAGLE (did you mean FRAGILE?), so the rule can never fire"
+               "no rule tests it")
+             (warnings-of "(INPUT FRAGILE (s1)) (RULE A (IF (FRAGLE (s1))) (THEN (CANT DO)))")))
+  (is (equal '("the absence of WET is tested here, but also RULE B, which derives it, comes later; rules run in order, each once")
+             (warnings-of "(INPUT WET) (RULE A (IF (NOT WET)) (THEN (CANT DO)))
+                           (RULE B (IF (SLIPPERY)) (THEN (REMEMBER WET)))"))
+      "rules may add to what the input says")
+  (is (null (warnings-of "(INPUT NOT WET) (RULE A (IF (WET)) (THEN (CANT DO)))"))
+      "what follows from a wrong declaration is no news"))
+
 (test all-mistakes-are-reported-and-good-rules-stay
   (multiple-value-bind (rulebase reports)
       (build "(RULE A (IF (SMALL (s1)) (NOT)) (THEN (FROB) (REMEMBER P (s9))))

@@ -59,6 +59,9 @@
                             (format nil "(CONSTRAINED ~a)" (faces "~a" " "))
                             (format nil "(FORCE-NEEDED (~a))" (numbers 6 " "))
                             (format nil "(VELOCITY-NEEDED (~a))" (numbers 6 " "))
+                            (if (chance 9)
+                                (format nil "(FACTS (WET) (FRAGILE (~a)))" (faces "~a" " "))
+                                "(FACTS)")
                             (format nil "(NAME \"~a\")" (substitute #\_ #\\ (name-text)))))))
 
 (defun json-box ()
@@ -70,6 +73,10 @@
                             (format nil "\"constrained\": [~a]" (faces "\"~a\"" ", "))
                             (format nil "\"force_needed\": [~a]" (numbers 6 ", "))
                             (format nil "\"velocity_needed\": [~a]" (numbers 6 ", "))
+                            (if (chance 9)
+                                (format nil "\"facts\": [[\"WET\"], [\"FRAGILE\", [~a]]]"
+                                        (faces "\"~a\"" ", "))
+                                "\"facts\": []")
                             (format nil "\"name\": \"~a\"" (name-text))))))
 
 (defun good-box (notation number)

@@ -204,7 +204,7 @@ of (rule . fact), as strings, in the order in which the facts were remembered."
                         (funcall try grasp (instance suggestion bindings))))
                  (keep (finish :keep))
                  (cant (finish :cant (remove-if #'listp arguments))))))
-      (loop for (nil name (nil . clauses) (nil . actions)) in (own rules)
+      (loop for (nil name (nil . clauses) (nil . actions)) in (remove 'input (own rules) :key #'first)
             for all = (rule-bindings clauses facts)
             do (loop for (operator . arguments) in actions
                      do (dolist (bindings all)
@@ -364,9 +364,9 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
 
 ;;;; ---------------------------------------------------------------- the box
 
-(defstruct (box (:constructor make-box (size weight u v constrained force velocity)))
-  "A box: three sizes in cm; its task, six needs each of force and of velocity."
-  size weight u v constrained force velocity)
+(defstruct (box (:constructor make-box (size weight u v constrained force velocity facts)))
+  "A box: three sizes in cm; its task, six needs each of force and of velocity; facts of its own."
+  size weight u v constrained force velocity facts)
 
 (defun parse-box (description)
   "Return the box of DESCRIPTION, an alist as in the paper."
@@ -378,7 +378,20 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
               (double (first (entry 'v)))
               (own (entry 'constrained))
               (mapcar #'double (first (entry 'force-needed)))
-              (mapcar #'double (first (entry 'velocity-needed))))))
+              (mapcar #'double (first (entry 'velocity-needed)))
+              (facts-in-order (own (entry 'facts))))))
+
+(defun facts-in-order (facts)
+  "Return FACTS, sentences, each list of faces and then the lists themselves in the order of *FACES*."
+  (flet ((place (face) (position face *faces*)))
+    (let ((ordered (loop for fact in facts
+                         collect (loop for part in fact
+                                       collect (if (consp part)
+                                                   (sort (copy-list part) #'< :key #'place)
+                                                   part)))))
+      (stable-sort ordered #'string<
+                   :key (lambda (fact)
+                          (format nil "~{~d~}" (mapcar #'place (find-if #'consp fact))))))))
 
 (defun distance (face box)
   "Return the size of BOX along the axis of FACE."
@@ -400,7 +413,8 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
                     when (member face (box-constrained box))
                       collect (list 'constrained (list face)))
               (when (<= (box-u box) (double (getf gripper 'slippery-u)))
-                (list (list 'slippery)))))))
+                (list (list 'slippery)))
+              (box-facts box)))))
 
 (defun oracle-initial-facts (box knowledge)
   "Return the sentences that hold of BOX, an alist, before any rule runs."

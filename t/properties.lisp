@@ -96,6 +96,9 @@
           collect (cons key (case key
                               (size (turn-list values matching))
                               (constrained (mapcar #'turn-face values))
+                              (facts (loop for (word faces) in values
+                                           collect (cons word (and faces (list (mapcar #'turn-face
+                                                                                       faces))))))
                               ((force-needed velocity-needed) (list (turn-six (first values))))
                               (t values))))))
 

@@ -156,6 +156,8 @@ def clauses(rng, box, name, notation):
             parts.append(f"({word} ({text}))" if key.endswith("needed") else f"({word} {text})")
         if name is not None:
             parts.append(f"(NAME {lisp_string(name)})")
+    if rng.random() < 0.1:  # facts of one's own: the shipped rules declare none
+        parts.append('"facts": []' if notation == "json" else "(facts)")
     rng.shuffle(parts)
     return parts
 
@@ -303,7 +305,8 @@ def duplicate(case, notation):
 
 def missing(case, notation):
     _, name, parts = case.fresh(notation)
-    left = case.rng.choice([part for part in parts if "name" not in part.lower()])
+    left = case.rng.choice([part for part in parts
+                            if not re.search("name|facts", part.lower())])
     parts.remove(left)
     text, _ = case.join(parts, notation)
     word = re.search(r"[A-Za-z_-]+", left)[0]
@@ -316,20 +319,24 @@ BAD_VALUES = {
              "(FORCE-NEEDED 1 1 1 1 1 1)",
              "(FORCE-NEEDED (1 1 1 1 1 1.0001))", "(VELOCITY-NEEDED (0 0 0 0 0))",
              "(CONSTRAINED X3)",
-             "(CONSTRAINED (X1 X2))", "(CONSTRAINED X1 X1)", "(CONSTRAINED 1)", "(U -1e-300)"],
+             "(CONSTRAINED (X1 X2))", "(CONSTRAINED X1 X1)", "(CONSTRAINED 1)", "(U -1e-300)",
+             "(FACTS (WET))", "(FACTS WET)", "(FACTS (WET (X1 X1)))", "(FACTS (NOT WET))"],
     "json": ['"size": [12, 2]', '"size": 12', '"size": [0,1,1]', '"size": ["1",1,1]',
              '"size": null',
              '"weight": -1', '"weight": "1"', '"u": [1]', '"v": true', '"v": {"a": 1}', '"u": null',
              '"force_needed": [1,1,1,1,1,2]', '"velocity_needed": [0,0,0]', '"constrained": "X1"',
-             '"constrained": ["X3"]', '"constrained": [["X1"]]', '"constrained": ["X1","X1"]']}
+             '"constrained": ["X3"]', '"constrained": [["X1"]]', '"constrained": ["X1","X1"]',
+             '"facts": [["WET"]]', '"facts": ["WET"]', '"facts": [["WET",["X9"]]]',
+             '"facts": [[["X1"]]]', '"facts": null']}
 
 
 def bad_value(case, notation):
     part = case.rng.choice(BAD_VALUES[notation])
     key = re.search(r"[A-Za-z_-]+", part)[0].lower()
     _, _, parts = case.fresh(notation)
-    index = [re.search(r"[A-Za-z_-]+", old)[0].lower() for old in parts].index(key)
-    parts[index] = part
+    keys = [re.search(r"[A-Za-z_-]+", old)[0].lower() for old in parts]
+    index = keys.index(key) if key in keys else len(parts)
+    parts[index:index + 1] = [part]
     text, places = case.join(parts, notation)
     return Item(text, name=any, mark=(places[index], places[index] + len(part)))
 

@@ -5,14 +5,14 @@
 
 (defparameter *spoiled*
   '((:RULES "(RULE END" "hello (RULE END"
-     "rules.lisp:14: HELLO is not a rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
+     "rules.lisp:14: HELLO is not a rule: a rule file holds (RULE name (IF clause...) (THEN action...)) and (INPUT sentence)")
     (:RULES "(RULE END" "
 12 (RULE END"
-     "rules.lisp:15: 12 is not a rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
+     "rules.lisp:15: 12 is not a rule: a rule file holds (RULE name (IF clause...) (THEN action...)) and (INPUT sentence)")
     (:GRASPS "(DEFUN HALF" "() (DEFUN HALF"
      "grasps.lisp:4: a grasp file holds (SETQ GRIPPER '(...)), (DEFUN name (parameter...) form) and (SETQ grasp '(...)), not ()")
     (:RULES "(RULE END" "(RULES END"
-     "rules.lisp:14: (RULES END (IF (OBJECT HAS PARALLEL SURFACES)) (THEN (KEEP BEST))) is not a rule: a rule file holds (RULE name (IF clause...) (THEN action...))")
+     "rules.lisp:14: (RULES END (IF (OBJECT HAS PARALLEL SURFACES)) (THEN (KEEP BEST))) is not a rule: a rule file holds (RULE name (IF clause...) (THEN action...)) and (INPUT sentence)")
     (:RULES "(THEN (KEEP BEST)))" "(THEN (KEEP BEST))"
      "rules.lisp:14:1: this parenthesis is never closed")
     (:RULES "(THEN (KEEP BEST)))" "(THEN (KEEP BEST))))"
@@ -23,14 +23,14 @@
      "rules.lisp:12: RULE ACROSS, clause 1: 2 is not a surface")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1 s2) NEARLY))"
      "rules.lisp:12: RULE ACROSS, clause 1: (PARALLEL (S1 S2) NEARLY): a sentence is made of words, and may end in one list of surfaces"
-     "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides PARALLEL NEARLY, so the rule can never fire")
+     "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides PARALLEL NEARLY, so the rule can never fire; if a box is to say it, add (INPUT PARALLEL NEARLY (S1 S2))")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (NOT NOT PARALLEL (s1 s2)))"
      "rules.lisp:12: RULE ACROSS, clause 1: (NOT NOT PARALLEL (S1 S2)) is negated twice")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (NOT))"
      "rules.lisp:12: RULE ACROSS, clause 1: an empty sentence")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (CORNER (s1 s2 s3 s4 s5 s6)) (SMALL (s7 s8)))"
      "rules.lisp:12: RULE ACROSS, clause 2: more than six variables: a box has six surfaces"
-     "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides CORNER, so the rule can never fire")
+     "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides CORNER, so the rule can never fire; if a box is to say it, add (INPUT CORNER (S1 S2 S3 S4 S5 S6))")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRIES G (s1 s2 ? ? ? ?))"
      "rules.lisp:13: RULE ACROSS, action 1: TRIES is not an action; actions are REMEMBER, CANT, TRY, KEEP")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(TRY H (s1 s2 ? ? ? ?))"
@@ -47,7 +47,7 @@
      "rules.lisp:11: RULE ACROSS, action 1: TRY is not an action: an action is a list that begins with REMEMBER, CANT, TRY, KEEP")
     (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER)"
      "rules.lisp:9: RULE FIND, action 1: an empty sentence"
-     "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides PARALLEL, so the rule can never fire")
+     "rules.lisp:12: warning: RULE ACROSS, clause 1: nothing provides PARALLEL, so the rule can never fire; if a box is to say it, add (INPUT PARALLEL (S1 S2))")
     (:RULES "(KEEP BEST)" "(KEEP ALL)"
      "rules.lisp:16: RULE END, action 1: KEEP is (KEEP BEST)")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALEL (s1 s2)))"

@@ -294,6 +294,21 @@ Half of the boxes are of a size that a hand can hold."
       (force-needed ,force)
       (velocity-needed ,velocity))))
 
+(defun random-facts (declared state)
+  "Return random facts of one's own of the predicates DECLARED, a list of (NAME ARITY), in any order."
+  (shuffle (loop for (name arity) in declared
+                 append (if (zerop arity)
+                            (when (chance 50 state) (list (list name)))
+                            (loop for faces in (remove-duplicates
+                                                (loop repeat (random 5 state)
+                                                      collect (subseq (shuffle '(x1 x2 y1 y2 z1 z2)
+                                                                               state)
+                                                                      0 arity))
+                                                :test (lambda (a b)
+                                                        (null (set-exclusive-or a b))))
+                                  collect (list name faces))))
+           state))
+
 (defmacro for-random-boxes ((box count seed &rest keys) &body body)
   "Run BODY with BOX bound to COUNT random boxes.  The seed is printed, and chooses them."
   (let ((state (gensym "STATE")))

@@ -21,7 +21,7 @@ file declares it."
   "Return the words of PREDICATE as one string."
   (format nil "~{~a~^ ~}" (predicate-words predicate)))
 
-(defstruct (input-declaration (:conc-name declaration-))
+(defstruct input-declaration
   "That the input may say a sentence: FORM is the (INPUT ...), COMMENT the list of the lines before it
 in its file."
   (form '() :type list) (comment '() :type list))

@@ -13,7 +13,7 @@ one generic function.")
    #:face-list-elements #:face-list-names
    ;; predicates and working memory
    #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
-   #:predicate-given #:declared-p #:declaration-form #:declaration-comment #:input-line
+   #:predicate-given #:declared-p #:input-declaration-form #:input-declaration-comment #:input-line
    #:memory #:make-memory #:clear-memory #:memory-client #:memory-log
    #:recall #:remember #:put-fact #:facts #:assertions #:saved-facts #:save-facts #:restore-facts
    ;; declarations and rules

@@ -27,7 +27,7 @@
            (complain form "a negation can't be declared: what the input does not say is false"))
           ((and known (declared-p known))
            (complain form "~a declares it already"
-                     (form-text (declaration-form (predicate-given known)))))
+                     (form-text (input-declaration-form (predicate-given known)))))
           (known
            (complain form "it is a preliminary assertion, which holds or not whatever the input says"))
           ((find-if #'face-index (remove-if-not #'namep surfaces))

@@ -134,7 +134,7 @@ have yet are allowed if BIND is true.  Complains, and returns NIL and true, of a
                            says~]; here it has ~[none~:;~:*~d~]"
                      (predicate-text predicate) (predicate-arity predicate)
                      (and (declared-p predicate)
-                          (form-text (declaration-form (predicate-given predicate))))
+                          (form-text (input-declaration-form (predicate-given predicate))))
                      arity))
           (t predicate))))
 
@@ -150,6 +150,7 @@ have yet are allowed if BIND is true.  Complains, and returns NIL and true, of a
           (list (append (remove-if-not #'loose-surface-p words) list))))
 
 (defun negation-in (words)
+  "Return the first of WORDS that negates, NO or NOT, or NIL."
   (find-if (lambda (word) (or (name= word "NO") (name= word "NOT"))) words))
 
 (defun parse-sentence (words form bind)

@@ -132,7 +132,7 @@ the file to declare them in."
            (complain spot "~a: ~a takes ~[no faces~;1 face~:;~:*~d faces~], as ~a in ~a says; here it ~
                            has ~[none~:;~:*~d~]"
                      text words (predicate-arity predicate)
-                     (form-text (declaration-form (predicate-given predicate))) rules count))
+                     (form-text (input-declaration-form (predicate-given predicate))) rules count))
           (t
            (complain spot "~a: ~a is no fact of a box's own: the other keys, and the gripper, decide it"
                      text words)))))

@@ -213,7 +213,7 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
   (let* ((words (name-of name))
          (predicate (and words (not (in-force-p words))
                          (find-predicate (knowledge-rulebase *knowledge*) (list words)))))
-    (and predicate (declared-p predicate) (declaration-form (predicate-given predicate)))))
+    (and predicate (declared-p predicate) (input-declaration-form (predicate-given predicate)))))
 
 (defmacro rule (&whole form name &rest parts)
   "Put the rule NAME into the knowledge in force, as EDIT does: (RULE name (IF ...) (THEN ...))."

@@ -45,15 +45,16 @@
         when (find predicate (rule-clauses rule) :key #'clause-predicate)
           collect (rule-name rule)))
 
-(defun input-source (predicate)
+(defun given-text (predicate)
+  "Return who gives PREDICATE, which the input may give."
   (if (declared-p predicate)
       (format nil "the box, as ~a declares"
-              (full-text (declaration-form (predicate-given predicate))))
+              (full-text (input-declaration-form (predicate-given predicate))))
       "the input"))
 
 (defun sources (predicate knowledge)
   "Return who provides PREDICATE: names of rules, and \"the input\"."
-  (append (and (predicate-given predicate) (list (input-source predicate)))
+  (append (and (predicate-given predicate) (list (given-text predicate)))
           (loop for rule in (knowledge-rules knowledge)
                 when (find predicate (rule-actions rule) :key #'action-predicate)
                   collect (rule-name rule))))
@@ -96,8 +97,8 @@ which rules test it; or, of a preliminary assertion, its threshold.  Returns its
          (input (find predicate (knowledge-inputs knowledge) :key #'prepared-input-predicate)))
     (plainly
       (cond ((declared-p predicate)
-             (format stream "~a~%" (full-text (declaration-form (predicate-given predicate))))
-             (write-comment (declaration-comment (predicate-given predicate)) stream)
+             (format stream "~a~%" (full-text (input-declaration-form (predicate-given predicate))))
+             (write-comment (input-declaration-comment (predicate-given predicate)) stream)
              (format stream "In words: a box may say that ~a.  What it does not say is false.~%"
                      (sentence-text words surfaces)))
             (t (format stream "~a~@[ (~{~a~^ ~})~] is a preliminary assertion~@[; its threshold is ~a~].~%"
