@@ -375,6 +375,29 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                            text)
                    "~a" name)))))
 
+(test facts-of-ones-own-are-shown
+  (with-folder (folder)
+    (let* ((knowledge (text-knowledge
+                       (format nil "(INPUT FRAGILE (s1)) (INPUT WET)
+                                    (RULE WET1 (IF (WET) (FRAGILE (s1)))
+                                               (THEN (REMEMBER SOGGY (s1)) (CANT GRASP IT WET)))
+                                    ~a" (file-text "rules.lisp"))
+                       (file-text "grasps.lisp")))
+           (facts '(:facts (fragile (y1)) (wet)))
+           (cant (supergrip:plan (append *good-box* (list facts)) :knowledge knowledge))
+           (grasp (supergrip:plan (append *good-box* (list (butlast facts))) :knowledge knowledge)))
+      (flet ((shown (draw plan)
+               (uiop:read-file-string (funcall draw plan (in-folder folder "p")))))
+        (dolist (words '("Facts of its own</th>" "FRAGILE (Y1) and WET" "fact-6-8" "href='#fact-6-8'"
+                         "Facts of its own: FRAGILE (Y1), WET."))
+          (is (search (substitute #\" #\' words) (substitute #\" #\' (shown #'supergrip-draw:report
+                                                                            cant)))
+              words))
+        (is (search "cm; FRAGILE (Y1), WET<" (shown #'supergrip-draw:draw-plan cant)))
+        (is (search "; FRAGILE (Y1)<" (shown #'supergrip-draw:draw-plan grasp)))
+        (is (not (search "Facts of its own" (shown #'supergrip-draw:report
+                                                   (supergrip:plan *good-box*)))))))))
+
 (test an-index-leads-to-every-page
   (with-folder (folder)
     (let* ((plans (loop for (nil . box) in (example-boxes) collect (supergrip:plan box)))
