@@ -143,9 +143,8 @@ not passed yet; and the NAMES of all."
 INPUTS are the predicates that the input always provides, as in BUILD-RULEBASE."
   (multiple-value-bind (tests conclusions) (collect-uses forms)
     (let* ((declared (input-uses forms))
-           (sources (collect-sources conclusions (append inputs (mapcar (lambda (use)
-                                                                          (list (list (use-words use))))
-                                                                        declared)))))
+           (provided (loop for use in declared collect (list (list (use-words use)))))
+           (sources (collect-sources conclusions (append inputs provided))))
       (dolist (test tests)
         (or (check-provided test sources)
             (check-order test sources)))

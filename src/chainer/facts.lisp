@@ -22,8 +22,8 @@ file declares it."
   (format nil "~{~a~^ ~}" (predicate-words predicate)))
 
 (defstruct input-declaration
-  "That the input may say a sentence: FORM is the (INPUT ...), COMMENT the list of the lines before it
-in its file."
+  "That the input may say a sentence: FORM is the (INPUT ...), COMMENT the list of the lines before
+it in its file."
   (form '() :type list) (comment '() :type list))
 
 (defun declared-p (predicate)
@@ -32,7 +32,8 @@ in its file."
 
 (defun input-line (words count)
   "Return the line that declares the sentence WORDS, one string, with a list of COUNT surfaces."
-  (format nil "(INPUT ~a~@[ (~{S~d~^ ~})~])" words (loop for number from 1 to count collect number)))
+  (format nil "(INPUT ~a~@[ (~{S~d~^ ~})~])" words
+          (loop for number from 1 to count collect number)))
 
 ;;; What is remembered of a predicate is kept twice: as bits, to test, and in order, to walk.
 

@@ -29,7 +29,8 @@
            (complain form "~a declares it already"
                      (form-text (input-declaration-form (predicate-given known)))))
           (known
-           (complain form "it is a preliminary assertion, which holds or not whatever the input says"))
+           (complain form "it is a preliminary assertion, which holds or not whatever the input ~
+                           says"))
           ((find-if #'face-index (remove-if-not #'namep surfaces))
            (complain form "a declaration holds for all surfaces: ~a"
                      (input-line (words-text words) (length surfaces))))

@@ -7,10 +7,10 @@
 (in-package :supergrip-chainer)
 
 (defun build-rulebase (forms inputs &key client)
-  "Return a rule base of FORMS: (RULE ...) forms in the order in which they are to run, and (INPUT ...)
-forms, whose places do not matter.  INPUTS are the predicates that the input always provides: a list
-of (WORDS ARITY), WORDS a list of strings.  CLIENT is what the actions of the lower level are compiled
-against.
+  "Return a rule base of FORMS: (RULE ...) forms in the order in which they are to run, and
+(INPUT ...) forms, whose places do not matter.  INPUTS are the predicates that the input always
+provides: a list of (WORDS ARITY), WORDS a list of strings.  CLIENT is what the actions of the lower
+level are compiled against.
 
 Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
   (let ((*rulebase* (%make-rulebase :client client))

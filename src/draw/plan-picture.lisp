@@ -97,8 +97,9 @@
           (constrained-text (plan-box plan))))
 
 (defun constrained-text (box)
-  "Return which faces of BOX are constrained, and the facts of its own, for those who can't see them."
-  (format nil "~:[No face is constrained~;~:*Constrained: ~{~a~^, ~}~].~@[ Facts of its own: ~{~a~^, ~}.~]"
+  "Return which faces of BOX are constrained, and its facts, for those who can't see them."
+  (format nil "~:[No face is constrained~;~:*Constrained: ~{~a~^, ~}~].~
+               ~@[ Facts of its own: ~{~a~^, ~}.~]"
           (box-constrained box) (fact-texts box)))
 
 (defun fact-texts (box)

@@ -1,7 +1,7 @@
 ;;;; box-facts.lisp -- facts of one's own: what a box says beyond its other keys.
 ;;;;
-;;;; The rules declare them by (INPUT ...).  A box is read without rules; so whether a fact is declared
-;;;; is asked when a plan is made.
+;;;; The rules declare them by (INPUT ...).  A box is read without rules; so whether a fact is
+;;;; declared is asked when a plan is made.
 
 (in-package :supergrip)
 
@@ -54,7 +54,7 @@
   (let* ((elements (and (consp form) form))
          (list (let ((last (first (last elements)))) (and (consp last) last)))
          (words (mapcar #'words-in (if list (butlast elements) elements)))
-         (names (apply #'append words)))
+         (names (loop for part in words append part)))
     (cond ((or (null words) (member '() words))
            (refuse-fact row number form "facts are ~a" (key-takes row)))
           ((find-if #'loose-surface-p names)
@@ -90,16 +90,17 @@
          predicate)))
 
 (defun assert-facts (memory box rulebase rules)
-  "Put into MEMORY, one for RULEBASE, the facts of BOX, in the order of their faces: how the box spells
-them does not matter.  Signals a BOX-ERROR that holds all that are not declared; RULES is the name of
-the file to declare them in."
+  "Put into MEMORY, one for RULEBASE, the facts of BOX, in the order of their faces: how the box
+spells them does not matter.  Signals a BOX-ERROR that holds all that are not declared; RULES is the
+name of the file to declare them in."
   (let ((facts (loop for fact in (%box-facts box)
                      collect (cons (fact-predicate fact rulebase)
                                    (make-face-list
                                     (sort (face-list-elements (box-fact-face-list fact)) #'<))))))
     (when (find nil facts :key #'car)
       (refuse-box (fact-problems box rulebase rules) nil (%box-line box)))
-    (loop for (predicate . face-list) in (sort facts #'< :key (lambda (fact) (face-order (cdr fact))))
+    (loop for (predicate . face-list)
+            in (sort facts #'< :key (lambda (fact) (face-order (cdr fact))))
           do (put-fact memory predicate face-list))))
 
 (defun face-order (face-list)
@@ -118,21 +119,22 @@ the file to declare them in."
 
 (defun refuse-undeclared (fact rulebase rules)
   "Complain of FACT, which RULEBASE, of the file RULES, does not declare."
-  (let* ((words (box-fact-words fact))
+  (let* ((words (cut-text (box-fact-words fact)))
          (count (face-list-count (box-fact-face-list fact)))
          (text (value-text *notation* (fact-list fact #'canonical-name)))
-         (predicate (find-predicate rulebase (list words)))
+         (predicate (find-predicate rulebase (list (box-fact-words fact))))
          (spot (box-fact-spot fact)))
     (cond ((or (null predicate) (null (predicate-given predicate)))
            (complain spot "~a: no INPUT declares ~a~a; to allow it, add ~a to ~a" text words
-                     (suggestion words (loop for other across (rulebase-predicates rulebase)
-                                             when (declared-p other) collect (predicate-text other)))
+                     (suggestion words (map 'list #'predicate-text
+                                            (remove-if-not #'declared-p
+                                                           (rulebase-predicates rulebase))))
                      (input-line words count) rules))
           ((declared-p predicate)
-           (complain spot "~a: ~a takes ~[no faces~;1 face~:;~:*~d faces~], as ~a in ~a says; here it ~
-                           has ~[none~:;~:*~d~]"
+           (complain spot "~a: ~a takes ~[no faces~;1 face~:;~:*~d faces~], as ~a in ~a says; here ~
+                           it has ~[none~:;~:*~d~]"
                      text words (predicate-arity predicate)
                      (form-text (input-declaration-form (predicate-given predicate))) rules count))
           (t
-           (complain spot "~a: ~a is no fact of a box's own: the other keys, and the gripper, decide it"
-                     text words)))))
+           (complain spot "~a: ~a is no fact of a box's own: the other keys, and the gripper, ~
+                           decide it" text words)))))

@@ -65,7 +65,8 @@ is among the others of the box, for BOX-VALUE."
 
 (defun box-value (box key)
   "Return what BOX gives for KEY, a symbol or a string: as the description has it, or NIL.  For keys that
-DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles.  BOX-FACTS gives the facts."
+DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles.
+BOX-FACTS gives the facts."
   (let ((row (find (and (or (symbolp key) (stringp key)) (string-upcase key)) *box-keys*
                    :key #'box-key-key :test #'string=)))
     (if row

@@ -49,7 +49,8 @@ hold into force.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
   (and (consp form) (consp other) (consp (rest form)) (consp (rest other))
        (name= (first form) (first other))
        (if (input-form-p form)
-           (equal (mapcar #'symbol-name (input-words form)) (mapcar #'symbol-name (input-words other)))
+           (equal (mapcar #'symbol-name (input-words form))
+                  (mapcar #'symbol-name (input-words other)))
            (name= (second form) (second other)))))
 
 (defun place-of-new (form forms before)
@@ -195,13 +196,14 @@ or of its grasps if RULES-P is false; NAMES are those of what is new."
                           (build-knowledge rules (edited-file grasps edit)))))))
 
 (defun forget (name)
-  "Take the rule or the grasp NAME, a symbol or a string, or the declaration of the words NAME, out of
-the knowledge in force, and return the new knowledge.  On a KNOWLEDGE-ERROR, as when a rule still tries the grasp, the former stays.
+  "Take the rule or the grasp NAME, a symbol or a string, or the declaration of the words NAME, out
+of the knowledge in force, and return the new knowledge.  On a KNOWLEDGE-ERROR, as when a rule still tries the grasp, the former stays.
 The files stay as they are: RELOAD-KNOWLEDGE takes it back."
   (let ((declaration (named-declaration name)))
     (if declaration
         (change-knowledge t (lambda (forms)
-                              (remove-if (lambda (form) (same-definition-p declaration form)) forms)))
+                              (remove-if (lambda (form) (same-definition-p declaration form))
+                                         forms)))
         (let* ((name (check-name name))
                (rule-p (find-rule (knowledge-rulebase *knowledge*) name)))
           (flet ((of-name-p (form)
@@ -213,7 +215,8 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
   (let* ((words (name-of name))
          (predicate (and words (not (in-force-p words))
                          (find-predicate (knowledge-rulebase *knowledge*) (list words)))))
-    (and predicate (declared-p predicate) (input-declaration-form (predicate-given predicate)))))
+    (and predicate (declared-p predicate)
+         (input-declaration-form (predicate-given predicate)))))
 
 (defmacro rule (&whole form name &rest parts)
   "Put the rule NAME into the knowledge in force, as EDIT does: (RULE name (IF ...) (THEN ...))."

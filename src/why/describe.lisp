@@ -101,8 +101,8 @@ which rules test it; or, of a preliminary assertion, its threshold.  Returns its
              (write-comment (input-declaration-comment (predicate-given predicate)) stream)
              (format stream "In words: a box may say that ~a.  What it does not say is false.~%"
                      (sentence-text words surfaces)))
-            (t (format stream "~a~@[ (~{~a~^ ~})~] is a preliminary assertion~@[; its threshold is ~a~].~%"
-                       words surfaces (threshold-text input))))
+            (t (format stream "~a~@[ (~{~a~^ ~})~] is a preliminary assertion~@[; its threshold is ~
+                               ~a~].~%" words surfaces (threshold-text input))))
       (format stream "It is tested by ~a.~%"
               (listed (or (testers predicate knowledge) '("no rule")))))
     predicate))
