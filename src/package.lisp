@@ -10,6 +10,7 @@
 
 (defpackage :supergrip
   (:use :cl :supergrip-data :supergrip-chainer :supergrip-words)
+  (:shadow #:assertions)
   (:implement :supergrip :supergrip-data :supergrip-chainer)
   (:lock t)
   (:documentation "An expert system that chooses the best grasp of a three-fingered gripper on a
@@ -17,6 +18,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
   (:export
    ;; the paper's session
    #:box #:forward-chain #:possible-grasps #:*plan*
+   #:try #:keep #:assertions #:rules #:grasps #:grasp #:gripper
    ;; asking why
    #:how #:why-not #:explain-best #:describe-rule #:describe-grasp #:describe-input
    #:explain-fact #:explain-why-not #:explain-choice #:write-answer
@@ -70,6 +72,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
 
 (defpackage :supergrip-user
   (:use :cl :supergrip)
-  (:shadow #:setq)
+  (:shadow #:setq #:possible-grasps #:assertions #:rules #:grasps #:gripper)
   (:export #:setq #:input)
-  (:documentation "A package to type in."))
+  (:documentation "A package to type in.  The paper's lists have symbols of their own here, which can
+be typed like variables; elsewhere these names stay free for the user's variables."))

@@ -401,7 +401,7 @@
                  "RULE SURFACES1 did fire, but not for this: clause 3, (NOT CONSTRAINED (S2)), fails for every binding of the clauses before it.")
                (subseq (answer '(parallel (x1 x2))) 0 2)))
     (is (equal '("(PARALLEL (Y2 Y1)) is not known."
-                 "RULE SURFACES1 did not run: PINCH-3-PARALLEL was tried alone.")
+                 "RULE SURFACES1 did not run: PINCH-3-PARALLEL was tried without rules.")
                (answer '(parallel (y2 y1)) (supergrip:try-grasp "PINCH-3-PARALLEL" (paper-box)))))))
 
 (test what-many-facts-follow-from-is-derived-once

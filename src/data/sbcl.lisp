@@ -154,4 +154,23 @@ copies it when garbage is collected included.")
   "True if ENVIRONMENT, a macro's, is that of top level, and NAME is no variable but one of TYPED, words
 that are typed like variables."
   (and (or (null environment) (sb-c::null-lexenv-p environment))
-       (or (member name typed) (eq (sb-int:info :variable :kind name) :unknown))))
+       (or (member name typed) (free-name-p name))))
+
+(defun free-name-p (name)
+  "True if NAME, a symbol, is no variable, constant or symbol macro."
+  (eq (sb-int:info :variable :kind name) :unknown))
+
+(defun define-typed-word (word package form)
+  "Let the name WORD, a string, mean FORM where it is typed like a variable in PACKAGE, unless it is
+another package's or has a meaning already.  Return its symbol if it means FORM."
+  (let ((symbol (intern word package)))
+    (when (and (eq (symbol-package symbol) package) (free-name-p symbol))
+      (eval `(define-symbol-macro ,symbol ,form)))
+    (and (equal (sb-int:info :variable :macro-expansion symbol) form) symbol)))
+
+(defun typed-name (text)
+  "Return the symbol that TEXT, typed in full, stands for in the current package; where that is locked
+and has none, a symbol of no package."
+  (cond ((find-symbol text))
+        ((sb-ext:package-locked-p *package*) (make-symbol text))
+        (t (intern text))))

@@ -30,6 +30,10 @@ SAME, for each matching, the set of those that are the same grasp, itself includ
   (destructuring-bind (setq name (quotation list)) (grasp-definition grasp)
     (copy-tree (list setq name (list quotation (canonical-entries list))))))
 
+(defun grasp-properties (grasp)
+  "Return the property list that defines GRASP, (key value ...)."
+  (second (third (grasp-form grasp))))
+
 (defmethod print-object ((grasp grasp) stream)
   (print-unreadable-object (grasp stream :type t)
     (write-string (grasp-name grasp) stream)))

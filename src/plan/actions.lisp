@@ -5,11 +5,8 @@
 (defun constant-matchings (terms)
   "Return the set of the matchings that give the grasp-faces the faces among TERMS, six of them, NIL for
 any."
-  (reduce #'logand (loop for term in terms
-                         for grasp-face from 0
-                         when (and term (not (term-variable-p term)))
-                           collect (aref +matchings-with+ grasp-face (term-value term 0)))
-          :initial-value +all-matchings+))
+  (matchings-giving (loop for term in terms
+                          collect (and term (not (term-variable-p term)) (term-value term 0)))))
 
 (defun variable-faces (terms)
   "Return a list of (GRASP-FACE . TERM) for those of TERMS, six, that are variables."

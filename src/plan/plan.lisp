@@ -36,12 +36,17 @@
                        (form-text object))))
 
 (defun name-of (designator)
-  "Return the name that DESIGNATOR, a symbol of any package, a string in any case, a rule or a grasp,
-stands for; NIL if it is none of these."
+  "Return the name that DESIGNATOR, a symbol of any package, a string in any case, a rule, a grasp or
+the property list of a grasp in force, stands for; NIL if it is none of these."
   (typecase designator
     (rule (rule-name designator))
     (grasp (grasp-name designator))
-    ((or symbol string) (string-upcase designator))))
+    ((or symbol string) (string-upcase designator))
+    (cons (flet ((text (form) (form-text form *record-limit*)))
+            (let ((grasp (find (text designator) (knowledge-grasps *knowledge*)
+                               :key (lambda (grasp) (text (grasp-properties grasp)))
+                               :test #'string=)))
+              (and grasp (grasp-name grasp)))))))
 
 (defun listed (names &optional (most 40) (between ", "))
   "Return NAMES, a list of strings, with BETWEEN between them; of many the first MOST, and how many
@@ -63,7 +68,7 @@ more."
   (best nil :read-only t)
   (entries '() :type list :read-only t) ; see DO-LOG
   (facts nil :type (or null saved-facts) :read-only t)
-  (only-grasp nil :read-only t))        ; the name of the grasp that was tried without rules
+  (tries '() :type list :read-only t))  ; if no rule ran, what was tried: see TRY-WITHOUT-RULES
 
 (defmacro do-log ((log) (candidate &body candidate-body) (event &body event-body))
   "Go through LOG, that of a plan or what an action added to it, in order: run CANDIDATE-BODY with
@@ -103,14 +108,24 @@ use no constrained face, equivalent ones once.  Other arguments as for PLAN."
       (apply #'try-only name (need-box) arguments)
       (apply #'try-only name arguments)))
 
-(defun try-only (name box &key (knowledge *knowledge*) (gamma *gamma*))
+(defun try-only (name box &rest arguments)
+  (apply #'try-without-rules (list (cons name +all-matchings+)) box arguments))
+
+(defun try-without-rules (tries box &key (knowledge *knowledge*) (gamma *gamma*))
+  "Return a plan for BOX in which no rule has run.  TRIES is a list of (NAME . SET): the grasp NAME was
+tried in the matchings SET, but for those that use a constrained face, equivalent ones once."
   (with-plain-floats
-    (let ((grasp (or (and (name-of name)
-                          (find-grasp (knowledge-graspbase knowledge) (name-of name)))
-                     (error 'no-grasp-error :name name :knowledge knowledge)))
+    (let ((tries (loop for (name . set) in tries collect (cons (need-grasp name knowledge) set)))
           (memory (start-plan box knowledge gamma)))
-      (try-matchings memory grasp +all-matchings+)
-      (finish-plan memory knowledge nil (grasp-name grasp)))))
+      (loop for (grasp . set) in tries do (try-matchings memory grasp set))
+      (finish-plan memory knowledge nil
+                   (loop for (grasp . set) in tries collect (cons (grasp-name grasp) set))))))
+
+(defun need-grasp (name knowledge)
+  "Return the grasp NAME of KNOWLEDGE, or signal a NO-GRASP-ERROR."
+  (or (and (name-of name)
+           (find-grasp (knowledge-graspbase knowledge) (name-of name)))
+      (error 'no-grasp-error :name name :knowledge knowledge)))
 
 (define-condition no-grasp-error (supergrip-error)
   ((name :initarg :name :reader no-grasp-error-name)
@@ -119,7 +134,8 @@ use no constrained face, equivalent ones once.  Other arguments as for PLAN."
              (let ((name (no-grasp-error-name condition))
                    (known (mapcar #'grasp-name
                                   (knowledge-grasps (no-grasp-error-knowledge condition)))))
-               (format stream "there is no grasp ~a~a; grasps are ~a" (form-text name)
+               (format stream "there is no grasp ~a~a; grasps are ~a"
+                       (form-text (if (name-of name) (make-symbol (name-of name)) name))
                        (suggestion (or (name-of name) "") known) (listed known)))))
   (:documentation "A grasp was named that the database lacks."))
 
@@ -151,13 +167,13 @@ of BOX, and its workspace has tried nothing yet.  Return it."
         (workspace-best (memory-client memory)) nil)
   (give-to (knowledge-spare knowledge) memory))
 
-(defun finish-plan (memory knowledge stop &optional only-grasp)
-  "Return the plan that MEMORY holds, of the ONLY-GRASP if no rule has run, and give MEMORY back.
+(defun finish-plan (memory knowledge stop &optional tries)
+  "Return the plan that MEMORY holds, of what TRIES says if no rule has run, and give MEMORY back.
 Rules that end without KEEP or CANT keep the best."
   (let ((workspace (memory-client memory)))
     (declare (type workspace workspace))
     (prog1 (%make-plan :box (workspace-box workspace) :knowledge knowledge
-                       :gamma (workspace-gamma workspace) :stop stop :only-grasp only-grasp
+                       :gamma (workspace-gamma workspace) :stop stop :tries tries
                        :best (and (not (and stop (eq (stop-verdict stop) :cant)))
                                   (workspace-best workspace))
                        :entries (nreverse (memory-log memory)) :facts (save-facts memory))
@@ -200,8 +216,11 @@ Rules that end without KEEP or CANT keep the best."
   (:documentation "The selection parameter is no number from 0 to 1."))
 
 (defun plan-verdict (&optional (plan *plan*))
-  "Return :GRASP if PLAN found a grasp, :CANT if the box can't be grasped."
-  (if (plan-best (need-plan plan)) :grasp :cant))
+  "Return :GRASP if PLAN found a grasp, :CANT if the box can't be grasped, :UNFINISHED if PLAN is of a
+run that stands at a break or a step; its best grasp is then the best so far."
+  (cond ((unfinished-p (need-plan plan)) :unfinished)
+        ((plan-best plan) :grasp)
+        (t :cant)))
 
 (defun plan-candidates (&optional (plan *plan*))
   "Return the candidates of PLAN, a new list, in the order in which they were tried."
@@ -224,4 +243,5 @@ Rules that end without KEEP or CANT keep the best."
 (defun plan-assertions (&optional (plan *plan*))
   "Return the assertions at the end of PLAN: a list a predicate, its words followed by its lists of
 surfaces, all strings."
-  (assertions (plan-memory (need-plan plan)) (knowledge-predicates (plan-knowledge plan))))
+  (supergrip-chainer:assertions (plan-memory (need-plan plan))
+                                (knowledge-predicates (plan-knowledge plan))))

@@ -1,5 +1,6 @@
 ;;;; try.lisp -- TRY: a grasp is tried in each matching that may be possible.
 ;;;;
+;;;; TRY-MATCHINGS is the paper's function: rules call it, and so does TRY when it is typed.
 ;;;; The suggestion and the constrained faces rule some matchings out.  TRY takes each of the others, in
 ;;;; order, through the steps of try-steps.lisp.
 
@@ -37,3 +38,10 @@ before.  The log of MEMORY gets the candidates."
           (setf (aref tried index) (logior (aref tried index) (aref (grasp-same grasp) matching)))
           (push (try-matching workspace grasp (svref +matchings+ matching))
                 (memory-log memory)))))))
+
+(defun matchings-giving (faces)
+  "Return the set of the matchings that give the grasp faces the FACES, six of them, NIL for any."
+  (reduce #'logand (loop for face in faces
+                         for grasp-face from 0
+                         when face collect (aref +matchings-with+ grasp-face face))
+          :initial-value +all-matchings+))

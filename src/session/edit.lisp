@@ -13,7 +13,9 @@ stays, and the KNOWLEDGE-ERROR says so."
                          (lambda (condition)
                            (setf (knowledge-error-consequence condition)
                                  "The knowledge in force stays as it was."))))
-          (funcall accept make))))
+          (funcall accept make)))
+  (define-grasp-words)
+  *knowledge*)
 
 (defun told-of-others (names)
   "Return the warnings of the knowledge in force that are not about the rules and grasps NAMES."
@@ -228,7 +230,15 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
   (declare (ignore sentence))
   `(edit ',(cons 'input (rest form))))
 
-;;; SETQ at top level
+;;; SETQ, of words that are typed like variables and at top level
+
+(defun (setf word) (value name)
+  "Make VALUE, a property list, the grasp NAME or the gripper; the other words only show."
+  (when (member name '("POSSIBLE-GRASPS" "ASSERTIONS" "RULES" "GRASPS") :test #'string=)
+    (refuse-argument "~a shows what SUPER-GRIP holds, and can't be set: give your variable another name"
+                     name))
+  (edit `(setq ,(make-symbol name) ',value))
+  value)
 
 (defun listed-form (form)
   "Return the list that FORM, '(...), `(...) or (LIST ...), makes, as far as one sees; or NIL."
@@ -281,7 +291,7 @@ to two keys."
 (defun assignment (name value environment)
   "Return a form that gives the variable NAME the VALUE, a form; or, if that is a definition, NIL and
 forms of the name and the value of a SETQ for EDIT."
-  (cond ((not (and (namep name) (global-name-p name environment '(box))))
+  (cond ((not (and (namep name) (global-name-p name environment (cons 'box *typed-words*))))
          `(cl:setq ,name ,value))
         ((quote-missing-p name value)
          `(refuse-argument "the quote is missing: write (setq ~(~a~) '(...))" ',name))

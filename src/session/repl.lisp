@@ -20,13 +20,18 @@ ARGUMENTS are keys and values: :BOX a box or a description of one, by default wh
 gave, which may also stand first, without its key; :KNOWLEDGE, by default what is in force; :GAMMA
 weighs velocities (1) against forces (0); :STREAM is where to print, NIL for not at all; :TRACE says
 how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger before each rule."
-  (let ((arguments (if (oddp (length arguments)) (cons :box arguments) arguments))
-        (keys '(:box :knowledge :gamma :stream :trace :step)))
-    (loop for (key) on arguments by #'cddr
-          unless (member key keys)
-            do (refuse-argument "~a is not a key of FORWARD-CHAIN: keys are ~{:~a~^, ~}" (form-text key)
-                                keys))
-    (apply #'chain-box arguments)))
+  (apply #'chain-box (checked-keys (if (oddp (length arguments)) (cons :box arguments) arguments)
+                                   'forward-chain '(:box :knowledge :gamma :stream :trace :step))))
+
+(defun checked-keys (arguments function keys)
+  "Return ARGUMENTS, keys and values for FUNCTION, if each key is one of KEYS."
+  (loop for (key . rest) on arguments by #'cddr
+        unless (member key keys)
+          do (refuse-argument "~a is not a key of ~a: keys are ~{:~a~^, ~}" (form-text key) function
+                              keys)
+        unless rest
+          do (refuse-argument "there is no value after the key :~a of ~a" key function))
+  arguments)
 
 (defun chain-box (&key ((:box given) *box*) (knowledge *knowledge*) (gamma *gamma*)
                     (stream *standard-output*) ((:trace level) *trace-level*) step)

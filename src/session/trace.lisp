@@ -203,10 +203,10 @@ and the memory that the rules run on.  RUN-OBSERVED gets ARGUMENTS, too."
 
 (defun rule-counts (&optional (plan *plan*))
   "Print and return how often each rule of PLAN was matched and fired: a list of (NAME MATCHES FIRINGS
-FACTS), empty if a grasp was tried alone.  MATCHES counts the bindings that met its first clause, its
+FACTS), empty if no rule ran.  MATCHES counts the bindings that met its first clause, its
 first two, and so on; FIRINGS its bindings; FACTS what it added."
   (let* ((plan (need-plan plan))
-         (counts (and (not (plan-only-grasp plan)) (count-rules plan))))
+         (counts (and (not (plan-tries plan)) (count-rules plan))))
     (format t "~12a ~8@a ~8@a ~8@a~%" "rule" "matches" "firings" "facts")
     (format t "~:{~12a ~8d ~8d ~8d~%~}" counts)
     counts))

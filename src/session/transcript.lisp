@@ -17,10 +17,13 @@
             (candidate-matching candidate))))
 
 (defun write-verdict (plan stream)
+  "Write the paper's closing lines: which grasp of PLAN is the best, or why there is none."
   (let ((stop (plan-stop plan)))
     (cond ((plan-best plan)
-           (format stream "(BEST GRASP IS ~a WITH MATCHING (~{~a~^ ~}))~%(THE QUALITY INDEX IS ~a)~%"
-                   (plan-grasp plan) (plan-matching plan) (short-decimal (plan-quality plan))))
+           (format stream "(BEST GRASP~:[~; SO FAR~] IS ~a WITH MATCHING (~{~a~^ ~}))~%"
+                   (unfinished-p plan) (plan-grasp plan) (plan-matching plan))
+           (format stream "(THE QUALITY INDEX IS ~a)~%" (short-decimal (plan-quality plan))))
+          ((unfinished-p plan) (format stream "(~a)~%" (plan-reason plan)))
           ((and stop (eq (stop-verdict stop) :cant))
            (format stream "(RULE ~a SAYS ~a)~%" (rule-name (stop-rule stop))
                    (plan-reason plan)))

@@ -91,8 +91,9 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
 
 (defun plan-like (plan box)
   "Return the plan for BOX, made as PLAN was."
-  (if (plan-only-grasp plan)
-      (try-only (plan-only-grasp plan) box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))
+  (if (plan-tries plan)
+      (try-without-rules (plan-tries plan) box :knowledge (plan-knowledge plan)
+                                               :gamma (plan-gamma plan))
       (plan box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))))
 
 (defun find-change (plan row index)

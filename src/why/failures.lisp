@@ -224,6 +224,7 @@ NIL if it can."
           (miss (plain-text "NO GRASP IS POSSIBLE, NEAREST MISS: ~a (~{~a~^ ~}): ~a"
                             (candidate-grasp miss) (candidate-matching miss)
                             (plainly (miss-text miss plan))))
+          ((plan-tries plan) "WHAT WAS TRIED WOULD USE A CONSTRAINED FACE")
           (t "NO RULE SUGGESTS A GRASP WHOSE SURFACES ARE FREE"))))
 
 (defmethod print-object ((plan plan) stream)

@@ -50,7 +50,10 @@ TEXT is a sentence, PLAN the plan."
         (matching (%candidate-matching candidate)))
     (cond ((eq candidate (plan-best plan))
            (make-not-chosen :kind :chosen :grasp grasp :matching matching
-                            :candidates (list candidate) :text "it is the best grasp"))
+                            :candidates (list candidate)
+                            :text (if (unfinished-p plan)
+                                      "it is the best grasp so far"
+                                      "it is the best grasp")))
           ((eq (candidate-outcome candidate) :possible) (lower-quality candidate plan))
           (t (multiple-value-bind (outcome text) (candidate-failure candidate plan)
                (make-not-chosen :kind :failed :grasp grasp :matching matching :outcome outcome
@@ -170,7 +173,7 @@ MATCHING, six faces, if that is given.  NAME is a symbol or a string; where it i
 is HOW's.  PLAN may stand in the place of MATCHING."
   (multiple-value-bind (matching plan)
       (if (plan-p matching) (values nil matching) (values matching plan))
-    (if (or (consp name) (and (stringp name) (find #\( name)))
+    (if (or (and (consp name) (null (name-of name))) (and (stringp name) (find #\( name)))
         (how name plan)
         (print-answer (explain-why-not name matching plan)))))
 

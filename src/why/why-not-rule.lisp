@@ -3,12 +3,12 @@
 (in-package :supergrip)
 
 (defstruct (refusal (:include explanation))
-  "Why RULE did not fire, or not for what was asked about.  ONLY-GRASP is the name of the grasp that was
-tried without rules.  FIRED holds the rule's bindings if it did fire; STOP is the STOP that ended the
+  "Why RULE did not fire, or not for what was asked about.  TRIED is the names of the grasps that were
+tried without rules, if no rule ran.  FIRED holds the rule's bindings if it did fire; STOP is the STOP that ended the
 run before it, or before its action; else NUMBER counts its CLAUSE that failed, BINDINGS are those
 that met all clauses before, BLOCKS, for a negation, the derivations of the facts that contradict it
 under each, and FIRED-FOR-OTHERS is true if it fired for something else."
-  rule only-grasp (fired '()) stop number clause (bindings '()) (blocks '()) fired-for-others)
+  rule (tried '()) (fired '()) stop number clause (bindings '()) (blocks '()) fired-for-others)
 
 (defun memory-before (plan rule)
   "Return the memory of PLAN as it was when RULE was tried, and, if it was not, the STOP before it."
@@ -22,7 +22,9 @@ under each, and FIRED-FOR-OTHERS is true if it fired for something else."
 (defun refuse-rule (rule plan)
   "Return the REFUSAL of RULE in PLAN."
   (multiple-value-bind (memory stop) (memory-before plan rule)
-    (cond ((plan-only-grasp plan) (make-refusal :rule rule :only-grasp (plan-only-grasp plan)))
+    (cond ((plan-tries plan)
+           (make-refusal :rule rule :tried (remove-duplicates (mapcar #'first (plan-tries plan))
+                                                              :test #'string= :from-end t)))
           (stop (make-refusal :rule rule :stop stop))
           ((failing-clause rule memory plan (constantly t)))
           (t (make-refusal :rule rule :fired (rule-bindings rule memory))))))
@@ -35,7 +37,7 @@ under each, and FIRED-FOR-OTHERS is true if it fired for something else."
                (some (lambda (action)
                        (may-bind-p (action-terms action) binding (face-list-mask face-list)))
                      actions)))
-        (if (or stop (plan-only-grasp plan))
+        (if (or stop (plan-tries plan))
             (refuse-rule rule plan)
             (let ((refusal (failing-clause rule memory plan #'wanted-p))
                   (bindings (rule-bindings rule memory)))
@@ -87,9 +89,9 @@ first clause that fails for all of them.  NIL if none does."
 
 (defmethod write-answer ((answer refusal) stream)
   (let ((rule (refusal-rule answer)))
-    (cond ((refusal-only-grasp answer)
-           (format stream "RULE ~a did not run: ~a was tried alone.~%" (rule-name rule)
-                   (refusal-only-grasp answer)))
+    (cond ((refusal-tried answer)
+           (format stream "RULE ~a did not run: ~a ~:[was~;were~] tried without rules.~%"
+                   (rule-name rule) (listed (refusal-tried answer)) (rest (refusal-tried answer))))
           ((refusal-fired answer) (write-fired answer stream))
           ((and (refusal-stop answer) (waiting-p (refusal-stop answer)))
            (format stream "RULE ~a has not run yet: the run is now ~:[in~;before~] RULE ~a.~%"

@@ -1,0 +1,93 @@
+;;;; words.lisp -- the paper's lists, typed: assertions, rules, grasps, the gripper.
+;;;;
+;;;; What these functions return has the symbols of the current package, and numbers as one would type
+;;;; them, so that it can be used as data.  In SUPERGRIP-USER the words may be typed like variables.
+
+(in-package :supergrip)
+
+(defun as-typed (form)
+  "Return FORM, of names, strings for names, and numbers, as the Lisp reader would return it in the
+current package."
+  (typecase form
+    (null nil)
+    (cons (mapcar #'as-typed form))
+    ((or symbol string) (typed-name (string form)))
+    (double-float (or (typed-number form) form))
+    (t form)))
+
+(defun typed-number (number &key rounded)
+  "Return the single float that NUMBER, a double, would be typed as, if floats are read as singles and
+that stands for NUMBER, or, if ROUNDED, is next to it; else NIL."
+  (and (member *read-default-float-format* '(single-float short-float))
+       (let ((single (handler-case (coerce number 'single-float)
+                       (arithmetic-error () nil))))
+         (and single (as-double single)
+              (or rounded (= (as-double single) number))
+              single))))
+
+(defun assertions (&optional (plan *plan*))
+  "Return all that is known at the end of PLAN, or now if its run has stopped: a list a predicate, its
+words followed by its lists of faces, symbols of the current package.  PLAN-ASSERTIONS gives strings."
+  (as-typed (plan-assertions plan)))
+
+(defun rules (&optional (knowledge *knowledge*))
+  "Return the rules of KNOWLEDGE, in order, as (RULE name (IF ...) (THEN ...)), with the symbols of the
+current package.  KNOWLEDGE-RULES gives objects."
+  (as-typed (mapcar #'rule-form (knowledge-rules (check-knowledge-argument knowledge)))))
+
+(defun grasps (&optional (knowledge *knowledge*))
+  "Return the names of the grasps of KNOWLEDGE, in order, symbols of the current package; GRASP gives what
+they stand for, and KNOWLEDGE-GRASPS objects."
+  (as-typed (mapcar #'grasp-name (knowledge-grasps (check-knowledge-argument knowledge)))))
+
+(defun grasp (name &optional (knowledge *knowledge*))
+  "Return the property list of the grasp NAME of KNOWLEDGE, (USED-SURFACES (N1 N2 A2) ...), with the
+symbols of the current package.  Signals a NO-GRASP-ERROR."
+  (as-typed (grasp-properties (need-grasp name (check-knowledge-argument knowledge)))))
+
+(defun gripper (&optional (knowledge *knowledge*))
+  "Return the property list of the gripper of KNOWLEDGE, (FINGER-LENGTH 4 ...), in cm, with the symbols
+of the current package.  KNOWLEDGE-GRIPPER gives strings and doubles."
+  (let ((file (knowledge-grasp-file (check-knowledge-argument knowledge))))
+    (as-typed (nth-value 1 (definition-form (find-if #'gripper-form-p (data-file-forms file)))))))
+
+(defun typed-possible-grasps ()
+  "Return POSSIBLE-GRASPS of *PLAN*, the best first: name, quality, matching, as they would be typed."
+  (loop for (name quality matching) in (possible-grasps)
+        collect (list (as-typed name) (or (typed-number quality :rounded t) quality)
+                      (as-typed matching))))
+
+;;; Typed like variables
+
+(defvar *typed-words* '() "The symbols of SUPERGRIP-USER that may be typed like variables.")
+
+(defun word (name)
+  "Return what NAME, a string, stands for where it is typed like a variable."
+  (cond ((string= name "POSSIBLE-GRASPS") (typed-possible-grasps))
+        ((string= name "ASSERTIONS") (assertions))
+        ((string= name "RULES") (rules))
+        ((string= name "GRASPS") (grasps))
+        ((string= name "GRIPPER") (gripper))
+        (t (grasp name))))
+
+(defun define-word (name)
+  "Let NAME, a string, be typed like a variable in SUPERGRIP-USER, if it has no other meaning there."
+  (let ((symbol (define-typed-word name (find-package :supergrip-user) `(word ,name))))
+    (when symbol
+      (pushnew symbol *typed-words*))))
+
+(defun define-grasp-words ()
+  "Let the names of all grasps in force be typed like variables."
+  (dolist (grasp (knowledge-grasps *knowledge*))
+    (define-word (grasp-name grasp))))
+
+(macrolet ((define-words (&rest names)
+             `(progn
+                ,@(loop for name in names
+                        for typed = (find-symbol name :supergrip-user)
+                        for ours = (find-symbol name :supergrip)
+                        collect `(setf (fdefinition ',typed) #',ours)
+                        collect `(define-word ,name)))))
+  (define-words "POSSIBLE-GRASPS" "ASSERTIONS" "RULES" "GRASPS" "GRIPPER"))
+
+(define-grasp-words)
