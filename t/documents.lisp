@@ -49,17 +49,18 @@
                              ((warning (lambda (warning)
                                          (format t "WARNING: ~a~%" warning)
                                          (muffle-warning warning))))
-                           (setf value (eval form))))))
+                           (let ((*package* (find-package :supergrip-user)))
+                             (setf value (eval form)))))))
     (values lines value)))
 
 (defun check-transcript (block document)
   "Check that each form of BLOCK prints what DOCUMENT shows, with its value after it or without."
   (loop for (form . lines) in (transcript-steps block)
-        unless (eq (first form) 'in-package)
+        unless (and (consp form) (eq (first form) 'in-package))
           do (multiple-value-bind (output value) (typed form)
                (let ((with-value (append output
                                          (let ((*package* (find-package :supergrip-user)))
-                                           (list (prin1-to-string value))))))
+                                           (lines-of (prin1-to-string value))))))
                  (is (or (null lines) (equal lines output) (equal lines with-value))
                      "~a: ~s gave~%~{~a~%~}" document form with-value)))))
 

@@ -162,15 +162,15 @@ that are typed like variables."
 
 (defun define-typed-word (word package form)
   "Let the name WORD, a string, mean FORM where it is typed like a variable in PACKAGE, unless it is
-another package's or has a meaning already.  Return its symbol if it means FORM."
+another package's or means something already.  Return its symbol if it means FORM."
   (let ((symbol (intern word package)))
     (when (and (eq (symbol-package symbol) package) (free-name-p symbol))
       (eval `(define-symbol-macro ,symbol ,form)))
     (and (equal (sb-int:info :variable :macro-expansion symbol) form) symbol)))
 
 (defun typed-name (text)
-  "Return the symbol that TEXT, typed in full, stands for in the current package; where that is locked
-and has none, a symbol of no package."
+  "Return the symbol that TEXT, typed in full, stands for in the current package; where that is
+locked and has none, a symbol of no package."
   (cond ((find-symbol text))
         ((sb-ext:package-locked-p *package*) (make-symbol text))
         (t (intern text))))

@@ -6,18 +6,19 @@
 (in-package :supergrip)
 
 (defun suggested-set (suggestion)
-  "Return the set of the matchings that SUGGESTION allows: six faces for N1 N2 O1 O2 A1 A2, ? for any;
-NIL allows all."
+  "Return the set of the matchings that SUGGESTION allows: six faces for N1 N2 O1 O2 A1 A2, ? for
+any; NIL allows all."
   (flet ((refuse ()
-           (refuse-argument "~a is not a suggested matching: that is six faces, for N1 N2 O1 O2 A1 A2, ~
-                             with ? for any, such as (? X2 Y2 Y1 ? Z1)" (form-text suggestion))))
+           (refuse-argument "~a is not a suggested matching: that is six faces, for N1 N2 O1 O2 A1 ~
+                             A2, with ? for any, such as (? X2 Y2 Y1 ? Z1)"
+                            (form-text suggestion))))
     (let* ((words (and suggestion (or (six-words suggestion) (refuse))))
            (set (matchings-giving (loop for word in words
                                         collect (and (string/= word "?")
                                                      (or (face-index word) (refuse)))))))
       (when (zerop set)
-        (refuse-argument "no matching has ~a: N O A must be a proper rotation of X Y Z, N1 opposite ~
-                          N2, and so on" (form-text suggestion)))
+        (refuse-argument "no matching has ~a: N O A must be a proper rotation of X Y Z, N1 ~
+                          opposite N2, and so on" (form-text suggestion)))
       set)))
 
 (defun tried-before (box knowledge)
@@ -40,14 +41,16 @@ NIL allows all."
             (list (cons (grasp-name grasp) set)))))
 
 (defun try (name &rest arguments)
-  "(TRY NAME [SUGGESTION] &KEY BOX KNOWLEDGE GAMMA STREAM): try the grasp NAME on the box, without rules,
-in all matchings that use no constrained face, equivalent ones once.  SUGGESTION leaves only the
-matchings that have its faces: six for N1 N2 O1 O2 A1 A2, ? for any, such as (? X2 Y2 Y1 ? Z1).  Print
-the paper's line for each that is possible, and return all that was tried, a list of candidates.
+  "(TRY NAME [SUGGESTION] &KEY BOX KNOWLEDGE GAMMA STREAM): try the grasp NAME on the box, without
+rules, in all matchings that use no constrained face, equivalent ones once.  SUGGESTION leaves only
+the matchings that have its faces: six for N1 N2 O1 O2 A1 A2, ? for any, as (? X2 Y2 Y1 ? Z1).
+Print the paper's line for each that is possible, and return all that was tried, candidates.
 
-*PLAN* becomes a plan of all that was tried by hand since the last FORWARD-CHAIN or change of the box,
-what was tried again once.  BOX is by default what (setq box ...) gave, other keys are as for
-FORWARD-CHAIN.  Signals a NO-GRASP-ERROR, a NO-BOX-ERROR or an ARGUMENT-ERROR."
+*PLAN* becomes a plan of all that was tried by hand since the last FORWARD-CHAIN or change of the
+box; what was tried again is in it once.  BOX is by default what (setq box ...) gave, other keys are
+as for FORWARD-CHAIN.  Signals a NO-GRASP-ERROR, a NO-BOX-ERROR or an ARGUMENT-ERROR.
+
+Source: the paper, Low-level System."
   (multiple-value-bind (suggestion keys)
       (if (keywordp (first arguments))
           (values nil arguments)
@@ -75,8 +78,8 @@ FORWARD-CHAIN.  Signals a NO-GRASP-ERROR, a NO-BOX-ERROR or an ARGUMENT-ERROR."
     tried))
 
 (defun keep (what &optional (plan *plan*))
-  "(KEEP 'BEST): print the paper's closing lines for what was tried in PLAN, by hand or by rules, and
-return the best candidate, NIL if none is possible."
+  "(KEEP 'BEST): print the paper's closing lines for what was tried in PLAN, by hand or by rules.
+Return the best candidate, NIL if none is possible."
   (unless (equal (name-of what) "BEST")
     (refuse-argument "~a can't be kept: what can be is the best, (keep 'best)" (form-text what)))
   (plainly (write-verdict (need-plan plan) *standard-output*))

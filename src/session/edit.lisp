@@ -235,8 +235,8 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
 (defun (setf word) (value name)
   "Make VALUE, a property list, the grasp NAME or the gripper; the other words only show."
   (when (member name '("POSSIBLE-GRASPS" "ASSERTIONS" "RULES" "GRASPS") :test #'string=)
-    (refuse-argument "~a shows what SUPER-GRIP holds, and can't be set: give your variable another name"
-                     name))
+    (refuse-argument "~a shows what SUPER-GRIP holds, and can't be set: give your variable another ~
+                      name" name))
   (edit `(setq ,(make-symbol name) ',value))
   value)
 

@@ -1,7 +1,8 @@
 ;;;; words.lisp -- the paper's lists, typed: assertions, rules, grasps, the gripper.
 ;;;;
-;;;; What these functions return has the symbols of the current package, and numbers as one would type
-;;;; them, so that it can be used as data.  In SUPERGRIP-USER the words may be typed like variables.
+;;;; What these functions return has the symbols of the current package, and numbers as one would
+;;;; type them, so that it can be used as data.  In SUPERGRIP-USER the words may be typed like
+;;;; variables.
 
 (in-package :supergrip)
 
@@ -16,8 +17,8 @@ current package."
     (t form)))
 
 (defun typed-number (number &key rounded)
-  "Return the single float that NUMBER, a double, would be typed as, if floats are read as singles and
-that stands for NUMBER, or, if ROUNDED, is next to it; else NIL."
+  "Return the single float that NUMBER, a double, would be typed as, if floats are read as singles
+and that stands for NUMBER, or, if ROUNDED, is next to it; else NIL."
   (and (member *read-default-float-format* '(single-float short-float))
        (let ((single (handler-case (coerce number 'single-float)
                        (arithmetic-error () nil))))
@@ -26,18 +27,19 @@ that stands for NUMBER, or, if ROUNDED, is next to it; else NIL."
               single))))
 
 (defun assertions (&optional (plan *plan*))
-  "Return all that is known at the end of PLAN, or now if its run has stopped: a list a predicate, its
-words followed by its lists of faces, symbols of the current package.  PLAN-ASSERTIONS gives strings."
+  "Return all that is known at the end of PLAN, or now if its run has stopped: a list a predicate,
+its words followed by its lists of faces, symbols of the current package.  PLAN-ASSERTIONS gives
+strings."
   (as-typed (plan-assertions plan)))
 
 (defun rules (&optional (knowledge *knowledge*))
-  "Return the rules of KNOWLEDGE, in order, as (RULE name (IF ...) (THEN ...)), with the symbols of the
-current package.  KNOWLEDGE-RULES gives objects."
+  "Return the rules of KNOWLEDGE, in order, as (RULE name (IF ...) (THEN ...)), with the symbols of
+the current package.  KNOWLEDGE-RULES gives objects."
   (as-typed (mapcar #'rule-form (knowledge-rules (check-knowledge-argument knowledge)))))
 
 (defun grasps (&optional (knowledge *knowledge*))
-  "Return the names of the grasps of KNOWLEDGE, in order, symbols of the current package; GRASP gives what
-they stand for, and KNOWLEDGE-GRASPS objects."
+  "Return the names of the grasps of KNOWLEDGE, in order, symbols of the current package.  GRASP gives
+what they stand for, KNOWLEDGE-GRASPS objects."
   (as-typed (mapcar #'grasp-name (knowledge-grasps (check-knowledge-argument knowledge)))))
 
 (defun grasp (name &optional (knowledge *knowledge*))
@@ -46,13 +48,14 @@ symbols of the current package.  Signals a NO-GRASP-ERROR."
   (as-typed (grasp-properties (need-grasp name (check-knowledge-argument knowledge)))))
 
 (defun gripper (&optional (knowledge *knowledge*))
-  "Return the property list of the gripper of KNOWLEDGE, (FINGER-LENGTH 4 ...), in cm, with the symbols
-of the current package.  KNOWLEDGE-GRIPPER gives strings and doubles."
+  "Return the property list of the gripper of KNOWLEDGE, (FINGER-LENGTH 4 ...), in cm, with the
+symbols of the current package.  KNOWLEDGE-GRIPPER gives strings and doubles."
   (let ((file (knowledge-grasp-file (check-knowledge-argument knowledge))))
     (as-typed (nth-value 1 (definition-form (find-if #'gripper-form-p (data-file-forms file)))))))
 
 (defun typed-possible-grasps ()
-  "Return POSSIBLE-GRASPS of *PLAN*, the best first: name, quality, matching, as they would be typed."
+  "Return POSSIBLE-GRASPS of *PLAN*, the best first: name, quality, matching, as one would type
+them."
   (loop for (name quality matching) in (possible-grasps)
         collect (list (as-typed name) (or (typed-number quality :rounded t) quality)
                       (as-typed matching))))
@@ -71,7 +74,7 @@ of the current package.  KNOWLEDGE-GRIPPER gives strings and doubles."
         (t (grasp name))))
 
 (defun define-word (name)
-  "Let NAME, a string, be typed like a variable in SUPERGRIP-USER, if it has no other meaning there."
+  "Let NAME, a string, be typed like a variable in SUPERGRIP-USER, if it means nothing else there."
   (let ((symbol (define-typed-word name (find-package :supergrip-user) `(word ,name))))
     (when symbol
       (pushnew symbol *typed-words*))))
