@@ -32,6 +32,9 @@
       (is (= 3 (length (supergrip:candidate-contacts (first tried))))))
     (is (equal '("(PINCH-3-U-SHAPE IS O.K. Q=0.770, MATCHING: (X1 X2 Y2 Y1 Z2 Z1))")
                (printed (supergrip:try 'pinch-3-u-shape '(? x2 y2 y1 ? z1)))))
+    (let ((supergrip::*traced* '("PINCH-3-CORNER")))
+      (is (equal "  (PINCH-3-CORNER FAILS AT OPEN, MATCHING: (Z1 Z2 X2 X1 Y2 Y1)): open: the contacts don't close on this shape; needs u > 0.9864, has 0.8"
+                 (first (printed (supergrip:try 'pinch-3-corner))))))
     (let ((failed '()))
       (is (equal '() (printed (setf failed (supergrip:try 'pinch-3-corner)))))
       (is (equal '(:open :open) (mapcar #'supergrip:candidate-outcome failed))))

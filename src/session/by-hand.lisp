@@ -73,7 +73,8 @@ Source: the paper, Low-level System."
                                  (logbitp (matching-index (%candidate-matching candidate)) set))
                                (candidates-of plan grasp))))
     (when stream
-      (plainly (dolist (candidate tried) (write-candidate candidate stream))))
+      (plainly (dolist (candidate tried)
+                 (write-tried candidate plan (max 1 (check-trace-level *trace-level*)) nil stream))))
     (setf *plan* plan)
     tried))
 

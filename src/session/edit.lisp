@@ -233,7 +233,7 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
 ;;; SETQ, of words that are typed like variables and at top level
 
 (defun (setf word) (value name)
-  "Make VALUE, a property list, the grasp NAME or the gripper; the other words only show."
+  "Make VALUE the grasp NAME, the gripper or its dimension NAME; the other words only show."
   (when (member name '("POSSIBLE-GRASPS" "ASSERTIONS" "RULES" "GRASPS") :test #'string=)
     (refuse-argument "~a shows what SUPER-GRIP holds, and can't be set: give your variable another ~
                       name" name))

@@ -124,15 +124,18 @@ rule, CONTINUE to the next break."))
     (format stream "  (~a FAILS AT ~a, MATCHING: (~{~a~^ ~})): ~a~%" (candidate-grasp candidate)
             (symbol-name step) (candidate-matching candidate) text)))
 
+(defun write-tried (candidate plan level traced stream)
+  "Write CANDIDATE of PLAN as LEVEL asks; in full if its grasp, or the rule that tried it, is TRACED."
+  (let ((traced (or traced (traced-p (candidate-grasp candidate)))))
+    (if (candidate-quality candidate)
+        (when (or traced (plusp level)) (write-candidate candidate stream))
+        (when (or traced (>= level 3)) (write-failed-candidate candidate plan stream)))))
+
 (defun write-additions (log plan in-hand level traced stream)
   "Write LOG, what an action of PLAN added to the log, of a rule that is TRACED or not.  IN-HAND
 returns the plan as it is now."
   (do-log (log)
-    (candidate
-     (let ((traced (or traced (traced-p (candidate-grasp candidate)))))
-       (if (candidate-quality candidate)
-           (when (or traced (plusp level)) (write-candidate candidate stream))
-           (when (or traced (>= level 3)) (write-failed-candidate candidate plan stream)))))
+    (candidate (write-tried candidate plan level traced stream))
     (event
      (when (or traced (plusp level))
        (write-event event (plan-rulebase plan) stream))

@@ -71,6 +71,8 @@ them."
         ((string= name "RULES") (rules))
         ((string= name "GRASPS") (grasps))
         ((string= name "GRIPPER") (gripper))
+        ((dimension (knowledge-graspbase *knowledge*) name)
+         (as-typed (dimension (knowledge-graspbase *knowledge*) name)))
         (t (grasp name))))
 
 (defun define-word (name)
@@ -80,9 +82,9 @@ them."
       (pushnew symbol *typed-words*))))
 
 (defun define-grasp-words ()
-  "Let the names of all grasps in force be typed like variables."
-  (dolist (grasp (knowledge-grasps *knowledge*))
-    (define-word (grasp-name grasp))))
+  "Let the names of all grasps and dimensions in force be typed like variables."
+  (mapc #'define-word (append (mapcar #'grasp-name (knowledge-grasps *knowledge*))
+                              (mapcar #'car (knowledge-gripper *knowledge*)))))
 
 (macrolet ((define-words (&rest names)
              `(progn
