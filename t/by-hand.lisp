@@ -214,3 +214,8 @@
                  (reverse seen)))
       (is (eq :grasp (supergrip:plan-verdict)))
       (is (= 6 (length (supergrip:plan-candidates)))))))
+
+(test the-session-of-the-papers-user
+  (with-knowledge-restored
+    (let ((supergrip::*box* nil) (supergrip:*plan* nil))
+      (check-transcript (lines-of (file-text "t/paper-user.txt")) "t/paper-user.txt"))))

@@ -51,7 +51,8 @@ symbols of the current package.  Signals a NO-GRASP-ERROR."
   "Return the property list of the gripper of KNOWLEDGE, (FINGER-LENGTH 4 ...), in cm, with the
 symbols of the current package.  KNOWLEDGE-GRIPPER gives strings and doubles."
   (let ((file (knowledge-grasp-file (check-knowledge-argument knowledge))))
-    (as-typed (nth-value 1 (definition-form (find-if #'gripper-form-p (data-file-forms file)))))))
+    (as-typed (flat-list (nth-value 1 (definition-form (find-if #'gripper-form-p
+                                                                (data-file-forms file))))))))
 
 (defun typed-possible-grasps ()
   "Return POSSIBLE-GRASPS of *PLAN*, the best first: name, quality, matching, as one would type
