@@ -92,7 +92,7 @@
                  ("(A . B) is not a fact that could be known: dotted pairs are not read: (A . B); a fact is a list, such as (PARALLEL (Y2 Y1))"
                   ,(error-text (supergrip:why-not '(a . b) nil plan)))
                  ("(OPPOSED (Y2 Y1) (X2 X1)) is not a fact that could be known: ask about one list of surfaces at a time"
-                  ,(error-text (supergrip:how '(opposed (y2 y1) (x2 x1)) plan)))
+                  ,(error-text (supergrip:explain-fact '(opposed (y2 y1) (x2 x1)) plan)))
                  ("there is no grasp 3; grasps are PINCH-2-PARALLEL, PINCH-3-PARALLEL, PINCH-3-U-SHAPE, PINCH-3-C-SHAPE, PINCH-2-ADJACENT, PINCH-3-ADJACENT, PINCH-3-CORNER"
                   ,(error-text (supergrip:try-grasp 3 (paper-box))))
                  ("3 is not a plan: FORWARD-CHAIN, PLAN and TRY-GRASP return plans"

@@ -72,9 +72,16 @@
       (is (equal gripper (supergrip:gripper)))
       (is (equal (figures (supergrip:plan-candidates plan))
                  (figures (supergrip:plan-candidates (supergrip:forward-chain :stream nil)))))
-      (loop for (predicate . lists) in (supergrip:assertions)
-            do (dolist (list (remove-if-not #'consp lists))
-                 (is (consp (printed (supergrip:how (list predicate list)))))))
+      (let ((lines (printed (mapc #'supergrip:how (supergrip:assertions)))))
+        (dolist (line '("(OPPOSED (X2 X1)): input, opposite faces of the box"
+                        "(CORNER (Z1 Y1 X2)): RULE SURFACES3 with S1 = Z1, S2 = Y1, S3 = X2"
+                        "(OBJECT HAS FREE CORNERS): RULE SURFACES3 with S1 = Z1, S2 = Y2, S3 = X2"))
+          (is (member line lines :test #'string=))))
+      (dolist (rule (supergrip:rules))
+        (is (equal (printed (supergrip:describe-rule (second rule)))
+                   (printed (supergrip:describe-rule rule)))))
+      (let ((supergrip::*breaks* '()))
+        (is (equal '("GRIP1") (supergrip:break-on (first (supergrip:rules))))))
       (loop for (name nil matching) in (supergrip::typed-possible-grasps)
             do (is (= 1 (length (printed (supergrip:try name matching)))))))))
 

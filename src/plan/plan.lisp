@@ -36,17 +36,25 @@
                        (form-text object))))
 
 (defun name-of (designator)
-  "Return the name that DESIGNATOR, a symbol of any package, a string in any case, a rule, a grasp or
-the property list of a grasp in force, stands for; NIL if it is none of these."
+  "Return the name that DESIGNATOR, a symbol of any package, a string in any case, a rule, a grasp, the
+form of a rule or the property list of a grasp in force, stands for; NIL if it is none of these."
   (typecase designator
     (rule (rule-name designator))
     (grasp (grasp-name designator))
     ((or symbol string) (string-upcase designator))
-    (cons (flet ((text (form) (form-text form *record-limit*)))
-            (let ((grasp (find (text designator) (knowledge-grasps *knowledge*)
-                               :key (lambda (grasp) (text (grasp-properties grasp)))
-                               :test #'string=)))
-              (and grasp (grasp-name grasp)))))))
+    (cons (name-defined-by designator))))
+
+(defun name-defined-by (definition)
+  "Return the name of the rule in force whose form, or the grasp whose property list, is DEFINITION;
+or NIL."
+  (flet ((text (form) (form-text form *record-limit*)))
+    (let* ((text (text definition))
+           (rule (find text (knowledge-rules *knowledge*)
+                       :key (lambda (rule) (text (rule-form rule))) :test #'string=))
+           (grasp (find text (knowledge-grasps *knowledge*)
+                        :key (lambda (grasp) (text (grasp-properties grasp))) :test #'string=)))
+      (cond (rule (rule-name rule))
+            (grasp (grasp-name grasp))))))
 
 (defun listed (names &optional (most 40) (between ", "))
   "Return NAMES, a list of strings, with BETWEEN between them; of many the first MOST, and how many

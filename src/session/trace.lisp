@@ -45,17 +45,17 @@ the names of all that is traced."
 (defun break-on (what)
   "Stop a run of FORWARD-CHAIN in the debugger before the rule WHAT, a symbol or a string, or when the
 fact WHAT, as '(PARALLEL (Y2 Y1)), becomes known.  Returns all breaks."
-  (unless (consp what)
+  (unless (and (consp what) (null (name-of what)))
     (check-name what))
   (pushnew (break-text what) *breaks* :test #'string=)
   *breaks*)
 
 (defun break-text (what)
   "Return the text that stands for WHAT, a name or a fact with its faces in any order, among *BREAKS*."
-  (cond ((consp what)
+  (cond ((name-of what))
+        ((consp what)
          (multiple-value-call #'sorted-fact-text
            (parse-fact what (knowledge-rulebase *knowledge*))))
-        ((name-of what))
         (t (refuse-argument "~a is not a break: a break is a rule's name or a fact, such as ~
                              (PARALLEL (Y2 Y1))"
                             (form-text what)))))

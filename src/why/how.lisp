@@ -97,10 +97,22 @@ derived it did not, of many rules for the first; MORE is how many are left out."
                                                  collect (refuse-conclusion rule predicate face-list
                                                                             plan)))))))))
 
+(defun single-facts (fact)
+  "Return the list of the facts in FACT, which may have several lists of faces."
+  (let* ((form (canonical-fact fact))
+         (lists (and (consp form) (remove-if-not #'consp form))))
+    (if (rest lists)
+        (loop for list in lists
+              collect (append (remove-if #'consp form) (list list)))
+        (list fact))))
+
 (defun how (fact &optional (plan *plan*))
   "Print and return how FACT, as '(PARALLEL (Y2 Y1)), came to be known in PLAN: the tree of rules,
-bindings and facts down to the box; negations as assumed when they were tested."
-  (print-answer (explain-fact fact plan)))
+bindings and facts down to the box; negations as assumed when they were tested.  Of a FACT with
+several lists of faces, as ASSERTIONS has them, return the list of the answers."
+  (let ((answers (loop for single in (single-facts fact) collect (explain-fact single plan))))
+    (mapc #'print-answer answers)
+    (if (rest answers) answers (first answers))))
 
 (defmethod write-answer ((answer unknown-fact) stream)
   (format stream "~a is not known.~%"
