@@ -166,7 +166,7 @@ another package's or means something already.  Return its symbol if it means FOR
   (let ((symbol (intern word package)))
     (when (and (eq (symbol-package symbol) package) (free-name-p symbol))
       (eval `(define-symbol-macro ,symbol ,form)))
-    (and (equal (sb-int:info :variable :macro-expansion symbol) form) symbol)))
+    (and (equal (macroexpand-1 symbol) form) symbol)))
 
 (defun typed-name (text)
   "Return the symbol that TEXT, typed in full, stands for in the current package; where that is

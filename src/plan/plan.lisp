@@ -5,7 +5,7 @@
 (defparameter *gamma* 0.5d0
   "The selection parameter of the quality index: Q = gamma u_t + (1 - gamma) u_w.")
 
-(defvar *plan* nil "The plan that FORWARD-CHAIN made last, or NIL.")
+(defvar *plan* nil "The plan that FORWARD-CHAIN or TRY made last, or NIL.")
 
 (defvar *box* nil)
 (setf (documentation '*box* 'variable) "The box that BOX was set to last, or NIL.")
