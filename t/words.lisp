@@ -129,7 +129,7 @@
       (is (equal (format nil "~:@(~a~) shows what SUPER-GRIP holds, and can't be set: give your variable another name"
                          word)
                  (error-text (eval-in-user (format nil "(setq ~a '(1 2))" word))))))
-    (signals supergrip:argument-error (eval-in-user "(setq pinch-2-parallel 7)"))
+    (signals supergrip:supergrip-error (eval-in-user "(setq pinch-2-parallel 7)"))
     (is (eq before supergrip:*knowledge*))))
 
 (test at-a-stop-words-show-what-is-known-now
