@@ -162,7 +162,7 @@
   (with-session ()
     (is (null (supergrip:try 'pinch-3-parallel '(? ? ? ? ? z2))) "it would use Z2")))
 
-(defun random-suggestion (state)
+(defun some-faces-of-a-matching (state)
   "Return a suggestion with some faces of a random matching."
   (loop for face in (supergrip::matching-names (svref supergrip::+matchings+ (random 24 state)))
         collect (if (chance 70 state) "?" face)))
@@ -172,7 +172,7 @@
     (format t "~&   600 random boxes, seed 61~%")
     (dotimes (i 60)
       (let* ((grasp (random-element *shipped-grasps* state))
-             (suggestion (random-suggestion state))
+             (suggestion (some-faces-of-a-matching state))
              (knowledge (text-knowledge
                          (format nil "(RULE R (IF (OPPOSED (X1 X2))) (THEN (TRY ~a ~a)))" grasp suggestion)
                          (file-text "grasps.lisp"))))
