@@ -45,6 +45,7 @@
     (is (equal (supergrip:box-facts box)
                (supergrip:box-facts (supergrip:parse-box
                                      (apply #'box-saying (supergrip:box-facts box))))))
+    (is (equal (supergrip:box-facts box) (supergrip:box-value box :facts)))
     (is (null (supergrip:box-facts (supergrip:parse-box (box-saying)))))
     (is (null (supergrip:box-facts (supergrip:parse-box (paper-box)))))))
 
@@ -188,6 +189,28 @@
                                                (supergrip:explain-choice
                                                 (gentle-plan '(fragile (y1)))))))))
           "a changed box keeps its facts"))))
+
+(test facts-may-also-be-derived
+  (let ((plan (supergrip:plan
+               (box-saying '(fragile (y1)) '(parallel (z1 z2)))
+               :knowledge (knowledge-with-rule
+                           "(INPUT FRAGILE (s1)) (INPUT PARALLEL (s1 s2))
+                            (RULE ALSO (IF (FRAGILE (s1)) (OPPOSED (s1 s2)))
+                                       (THEN (REMEMBER FRAGILE (s2)) (REMEMBER FRAGILE (s1))))"))))
+    (flet ((how (fact) (printed (supergrip:how fact plan))))
+      (is (equal '("(FRAGILE (Y1)): input, the box says so") (how '(fragile (y1)))))
+      (is (equal '("(PARALLEL (Z2 Z1)): input, the box says so") (how '(parallel (z1 z2)))))
+      (is (equal "(FRAGILE (Y2)): RULE ALSO with S1 = Y1, S2 = Y2" (first (how '(fragile (y2))))))
+      (is (equal '("(FRAGILE (Z1)) is not known." "It is an input, which this box does not give."
+                   "RULE ALSO did fire, but not for this: clause 2, (OPPOSED (S1 S2)), fails for every binding of the clauses before it.")
+                 (subseq (how '(fragile (z1))) 0 3))))))
+
+(test what-nothing-provides-is-not-called-an-input
+  (let ((plan (supergrip:plan (paper-box)
+                              :knowledge (values (knowledge-with-rule
+                                                  "(RULE R (IF (NOT HOT)) (THEN (REMEMBER P)))")))))
+    (is (equal '("(HOT) is not known." "Nothing provides it.")
+               (printed (supergrip:how '(hot) plan))))))
 
 (test inputs-are-described
   (let ((knowledge (values (text-knowledge (format nil "~%;;; Mine: an egg.~%~a" *gentle-rules*)

@@ -5,6 +5,7 @@
 ;;;; thing that is wrong, says with which seed, and leaves the files in the temporary directory.
 
 (load (merge-pathnames "../src/boot.lisp" *load-truename*))
+(supergrip-boot:load-quietly "supergrip/batch")
 (load (merge-pathnames "fuzzer.lisp" *load-truename*))
 
 (defun command ()

@@ -12,8 +12,10 @@
 (defun box-facts (box)
   "Return the facts of its own that BOX has, a new list as FACTS has them, of strings:
 ((\"FRAGILE\" (\"Z1\")) (\"WET\"))."
-  (loop for fact in (%box-facts box)
-        collect (fact-list fact #'identity)))
+  (shown-value :facts (%box-facts box)))
+
+(defmethod shown-value ((type (eql :facts)) facts)
+  (loop for fact in facts collect (fact-list fact #'identity)))
 
 (defun fact-list (fact name)
   "Return FACT as a description has it; NAME, a function, makes a name of a string."

@@ -63,14 +63,19 @@ is among the others of the box, for BOX-VALUE."
 (defun find-key (key)
   (find key *box-keys* :key #'box-key-key))
 
+(defgeneric shown-value (type value)
+  (:documentation "Return VALUE of a key that takes what TYPE says, for those who read boxes.")
+  (:method (type value)
+    (declare (ignore type))
+    value))
+
 (defun box-value (box key)
   "Return what BOX gives for KEY, a symbol or a string: as the description has it, or NIL.  For keys that
-DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles.
-BOX-FACTS gives the facts."
+DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles, facts are lists of strings."
   (let ((row (find (and (or (symbolp key) (stringp key)) (string-upcase key)) *box-keys*
                    :key #'box-key-key :test #'string=)))
     (if row
-        (funcall (box-key-reader row) box)
+        (shown-value (box-key-type row) (funcall (box-key-reader row) box))
         (refuse-argument "~a is not a key of a box: keys are ~{~a~^, ~}" (form-text key)
                          (mapcar #'box-key-key *box-keys*)))))
 

@@ -117,9 +117,12 @@ several lists of faces, as ASSERTIONS has them, return the list of the answers."
 (defmethod write-answer ((answer unknown-fact) stream)
   (format stream "~a is not known.~%"
           (fact-text (unknown-fact-predicate answer) (unknown-fact-face-list answer)))
-  (if (unknown-fact-refusals answer)
-      (write-refusals (unknown-fact-refusals answer) (unknown-fact-more answer) stream)
-      (format stream "It is an input, which this box does not give.~%")))
+  (let ((given (predicate-given (unknown-fact-predicate answer))))
+    (when given
+      (format stream "It is an input, which this box does not give.~%"))
+    (if (or given (unknown-fact-refusals answer))
+        (write-refusals (unknown-fact-refusals answer) (unknown-fact-more answer) stream)
+        (format stream "Nothing provides it.~%"))))
 
 ;;; In print
 
