@@ -60,6 +60,10 @@ return true as the second value."
 (defmethod action-mentions ((verb (eql :try)) operands)
   (and (consp operands) (namep (first operands)) (list (first operands))))
 
+(defmethod symmetric-action-p ((verb (eql :try)) action a b)
+  ;; What the suggestion does not name makes no difference.
+  (notany (lambda (variable) (member variable (action-terms action))) (list a b)))
+
 (defmethod describe-action ((verb (eql :try)) action)
   (destructuring-bind (grasp &optional suggestion) (action-operands action)
     (format nil "try ~a~@[ with ~{~a~^, ~}~]" grasp
@@ -90,6 +94,10 @@ return true as the second value."
                 (declare (ignore memory binding))
                 stop)))
       (complain (action-form action) "KEEP is (KEEP BEST)")))
+
+(defmethod symmetric-action-p ((verb (eql :keep)) action a b)
+  (declare (ignore action a b))
+  t)
 
 (defmethod describe-action ((verb (eql :keep)) action)
   (declare (ignore action))
