@@ -16,12 +16,12 @@
 ;;; prints no value.  The six qualities of its session, each to +-0.0005, bind FINGER-SPREAD,
 ;;; REACH-U and REACH-C, and FINGER-LENGTH and FINGER-DIST jointly: 3.0 with 4.705 (then DIST-PINCH
 ;;; at most 10.705), 4.0 with 9.262 or 5.0 with 11.9075 print the same session.  The others are a
-;;; plausible hand's.
+;;; plausible hand's: by FINGER-WIDTH a ruler on a table can be picked up, and a coin can't.
 (SETQ GRIPPER
   '(FINGER-LENGTH 3.2     ; cm, of each of a finger's two links
     FINGER-DIST   6.05    ; cm, between the bases of opposed fingers
     FINGER-SPREAD 1.7375  ; cm, between the two fingers that work side by side
-    FINGER-WIDTH  0.6     ; cm, the least width of a face that a fingertip can hold.
+    FINGER-WIDTH  0.3     ; cm, the least width of a face that a fingertip can hold.
                           ; A pair of faces closer than this is SMALL; one closer than
                           ; FINGER-SPREAD is NARROW
     DIST-PINCH    12      ; cm, the opening of the hand.  A pair of faces as far apart, or

@@ -71,19 +71,24 @@
 
 ;;;; ---------------------------------------------------------------- (3) poor grasps
 
-;;; Reconstructed: without parallel faces a free corner is the best there is; each is tried.
+;;; Reconstructed: without parallel faces a free corner is the best there is; each is tried, then
+;;; the adjacent faces, and the search ends.
 (RULE GRIP4
   (IF (OBJECT HAS NO PARALLEL SURFACES)
       (CORNER (s1 s2 s3)))
-  (THEN (TRY PINCH-3-CORNER (s1 ? s2 ? s3 ?))))
-
-;;; Reconstructed: the adjacent grasps stand beside the corners, and the search ends.
-(RULE GRIP5
-  (IF (OBJECT HAS FREE CORNERS)
-      (OBJECT HAS NO PARALLEL SURFACES))
-  (THEN (TRY PINCH-2-ADJACENT)
+  (THEN (TRY PINCH-3-CORNER (s1 ? s2 ? s3 ?))
+        (TRY PINCH-2-ADJACENT)
         (TRY PINCH-3-ADJACENT)
         (KEEP BEST)))
+
+;;; Reconstructed: a pair too wide for the hand is not available.  Beside it a corner can be held
+;;; from the side; where the hand can span another pair, no other poor grasp is worth trying.
+(RULE GRIP5
+  (IF (WIDE (s1 s2))
+      (PARALLEL (s3 s4))
+      (NOT WIDE (s3 s4)))
+  (THEN (REMEMBER OBJECT HAS OTHER PARALLEL SURFACES)
+        (TRY PINCH-3-CORNER (s1 ? ? ? ? ?))))
 
 ;;; Printed.
 (RULE GRIP6
@@ -96,9 +101,11 @@
 ;;;; ---------------------------------------------------------------- (4) other cases
 
 ;;; Reconstructed: two fingers do where the faces are too narrow for three, if no edge of them is
-;;; too thin for a fingertip.  (On wider faces PINCH-3-PARALLEL is never worse in the same matching.)
+;;; too thin for a fingertip: the printed grasp itself asks for no width.  (On wider faces
+;;; PINCH-3-PARALLEL is never worse in the same matching.)
 (RULE GRIP7
   (IF (PARALLEL (s1 s2))
+      (NOT WIDE (s1 s2))
       (NARROW (s3 s4))
       (NOT SMALL (s3 s4))
       (OPPOSED (s5 s6))
@@ -112,19 +119,26 @@
   (THEN (TRY PINCH-3-U-SHAPE (? s3 s1 s2 ? s4))
         (TRY PINCH-3-C-SHAPE (s1 s2 ? s3 ? s4))))
 
-;;; Reconstructed: the good grasp across every parallel pair that the hand can span; the session
-;;; gives its place, after GRIP8.
+;;; Reconstructed: the good grasp across every parallel pair that the hand can span, the palm over
+;;; any free face beside it, where two fingers have room side by side; the session gives its place,
+;;; after GRIP8, and the order of s5 s6 before s3 s4.
 (RULE GRIP9
   (IF (PARALLEL (s1 s2))
-      (NOT WIDE (s1 s2)))
-  (THEN (TRY PINCH-3-PARALLEL (s1 s2 ? ? ? ?))))
+      (NOT WIDE (s1 s2))
+      (OPPOSED (s5 s6))
+      (NOT CONSTRAINED (s6))
+      (OPPOSED (s3 s4))
+      (NOT NARROW (s3 s4)))
+  (THEN (TRY PINCH-3-PARALLEL (s1 s2 ? ? s5 s6))))
 
-;;; Reconstructed: where a pair is too wide, a corner can still be held from the side: the
-;;; paper lists PINCH-3-CORNER among the grasps of this group.
+;;; Reconstructed: all parallel pairs are too wide.  What is left is a corner, which the paper lists
+;;; among the grasps of this group, and adjacent faces.
 (RULE GRIP10
   (IF (WIDE (s1 s2))
-      (CORNER (s1 s3 s4)))
-  (THEN (TRY PINCH-3-CORNER (s1 ? s3 ? s4 ?))))
+      (OBJECT HAS NO OTHER PARALLEL SURFACES))
+  (THEN (TRY PINCH-3-CORNER (s1 ? ? ? ? ?))
+        (TRY PINCH-2-ADJACENT)
+        (TRY PINCH-3-ADJACENT)))
 
 ;;; Reconstructed: the end of the search, as in GRIP6.
 (RULE GRIP11

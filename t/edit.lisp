@@ -47,9 +47,9 @@
                     (supergrip:knowledge-error (condition) (princ-to-string condition)))))
       (is (eq before supergrip:*knowledge*) "rules try it")
       (handler-bind ((supergrip:knowledge-warning #'muffle-warning)) ; nothing tries the corner grasp
-        (mapc #'supergrip:forget '(grip4 "GRIP10")))
+        (mapc #'supergrip:forget '(grip4 "GRIP5" grip10)))
       (supergrip:forget 'pinch-3-corner)
-      (is (= (- rules 2) (rule-total)))
+      (is (= (- rules 3) (rule-total)))
       (is (= (- grasps 1) (grasp-total)))
       (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp (pencil-plan))))
       (signals supergrip:no-rule-error (supergrip:forget 'grip4)))))

@@ -25,7 +25,7 @@
           ((4 4 4) 0.8d0 (z2 z1 y2 x2)
            . "PINCH-2-ADJACENT (Y1 Y2 X1 X2 Z2 Z1): Z2 and Z1 are 4 cm apart, the hand needs more than 8, and Z2 and Z1 are both constrained; u is 0.8, must be > 1"))
         do (is (equal reason (reason-of size u constrained))))
-  (is (equal "PINCH-3-CORNER (Y2 Y1 Z1 Z2 X2 X1): the finger places on X2 and Y2 are 18.03 cm apart, the hand opens to 12; the finger places on Z1 and X2 are 16.77 cm apart, the hand opens to 12; u is 0.6, must be > 0.7071; the finger places on Y2 and Z1 are 12.5 cm apart, the hand opens to 12."
+  (is (equal "PINCH-3-CORNER (Y2 Y1 X1 X2 Z1 Z2): the finger places on Y2 and X1 are 18.03 cm apart, the hand opens to 12; the finger places on X1 and Z1 are 16.77 cm apart, the hand opens to 12; u is 0.6, must be > 0.7071; the finger places on Z1 and Y2 are 12.5 cm apart, the hand opens to 12."
              (why-not-line (plan-of '(30 20 15) 0.6d0 '(z2)) 'pinch-3-corner))))
 
 (defun condition-words (conditions)
@@ -47,7 +47,7 @@
   (loop for (conditions . words) in
         '((((dist '(n1 n2)) > dist-pinch) . "Z2 and Z1 are 2 cm apart, must be > 12 (DIST-PINCH)")
           ((> 1 (dist '(n1 n2))) . "Z2 and Z1 are 2 cm apart, must be < 1")
-          ((finger-width > (dist '(n2 n1))) . "Z2 and Z1 are 2 cm apart, must be < 0.6 (FINGER-WIDTH)")
+          ((finger-width > (dist '(n2 n1))) . "Z2 and Z1 are 2 cm apart, must be < 0.3 (FINGER-WIDTH)")
           ((not ((dist '(n1 n2)) <= dist-pinch))
            . "Z2 and Z1 are 2 cm apart, must be > 12 (DIST-PINCH)")
           ((not (or (constrained n1) (u > 0.5)))

@@ -125,7 +125,7 @@ list of strings, there, with a cache of its own."
        (multiple-value-bind (status output errors) (pencil)
          (is (eql 65 status) "a script says what is wrong with the rules, and ends")
          (is (equal "" output))
-         (is (equal '("rules.lisp:94: RULE GRIP6, action 3: KEEP is (KEEP BEST)")
+         (is (equal '("rules.lisp:99: RULE GRIP6, action 3: KEEP is (KEEP BEST)")
                     (lines-of errors))))
        (write-file *session-of-a-user* (merge-pathnames "session.lisp" directory))
        (write-file "(defsystem \"mine\")" (merge-pathnames "mine/mine.asd" directory))

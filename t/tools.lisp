@@ -454,6 +454,53 @@ Half of the boxes are of a size that a hand can hold."
               "~{~a~%~}" problems)
           knowledge))))
 
+(defun with-entries (box &rest entries)
+  "Return the description BOX with ENTRIES, a plist, in the place of its own."
+  (loop for entry in box
+        collect (let ((new (getf entries (first entry))))
+                  (if new (cons (first entry) new) entry))))
+
+(defun random-size (low high state)
+  (loop repeat 3 collect (random-between low high state)))
+
+(defun table-box (state)
+  "Return the description of a random box of 1 to 15 cm, light, on a table."
+  (with-entries (random-box state) 'size (random-size 1d0 15d0 state)
+                'weight (list (random 0.5d0 state)) 'u (list (+ 0.3d0 (random 0.7d0 state)))
+                'constrained '(z2)))
+
+(defun household-box (state)
+  "Return the description of a random box of 0.05 to 40 cm, light, with one to three faces blocked."
+  (with-entries (random-box state) 'size (random-size 0.05d0 40d0 state)
+                'weight (list (random 0.5d0 state)) 'u (list (+ 0.2d0 (random 0.9d0 state)))
+                'constrained (case (random 3 state) (0 '(z2)) (1 '(z2 x1)) (t '(z2 x1 y2)))))
+
+(defun rubber-box (state)
+  "Return the description of a random box of 3 to 30 cm with u > 1, so that adjacent grasps close."
+  (with-entries (random-box state) 'size (random-size 3d0 30d0 state)
+                'weight (list (random 0.3d0 state)) 'u (list (+ 1 (random 0.7d0 state)))))
+
+;;; Every grasp in every matching
+
+(defparameter *everything-rules*
+  "(RULE EVERYTHING
+  (IF (OPPOSED (s1 s2)))
+  (THEN (TRY PINCH-2-PARALLEL) (TRY PINCH-3-PARALLEL) (TRY PINCH-3-U-SHAPE) (TRY PINCH-3-C-SHAPE)
+        (TRY PINCH-2-ADJACENT) (TRY PINCH-3-ADJACENT) (TRY PINCH-3-CORNER) (KEEP BEST)))"
+  "One rule, in the place of the fifteen, that leaves nothing out.")
+
+(defun with-wide-faces (grasps)
+  "Return GRASPS, a text, with faces as wide in PINCH-2-PARALLEL as in the other grasps."
+  (let ((printed "CONDITIONS (((DIST '(N1 N2)) < DIST-PINCH) AND
+                ((DIST '(O1 O2)) > WIDTH-HAND)"))
+    (replace-once grasps printed
+                  (replace-once printed " AND" " AND
+                ((DIST '(O1 O2)) >= FINGER-WIDTH) AND ((DIST '(A1 A2)) >= FINGER-WIDTH) AND"))))
+
+(defun everything-knowledge (&optional (grasps (file-text "grasps.lisp")))
+  "Return the knowledge that tries every grasp of GRASPS, a text, in every matching."
+  (text-knowledge *everything-rules* grasps))
+
 ;;; The oracle's plan beside ours
 
 (defparameter *oracle*

@@ -31,9 +31,9 @@
 
 (defun measured-by-clips (name lines)
   "Return the figure NAME of what (measure ...) has printed, LINES.
-Signals an error unless it remembers the eleven facts of the session and tries ten suggestions."
+Signals an error unless it remembers the eleven facts of the session and tries twelve suggestions."
   (let ((prefix "seconds "))
-    (unless (find-if (lambda (line) (search "remembered 11 tried 10" line)) lines)
+    (unless (find-if (lambda (line) (search "remembered 11 tried 12" line)) lines)
       (error "CLIPS runs another session: ~{~a~%~}" lines))
     (figure-of name (loop for line in lines
                           for start = (search prefix line)

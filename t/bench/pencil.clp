@@ -62,12 +62,15 @@
 (defrule GRIP4 (declare (salience 80))
   (not (parallel-surfaces))
   (corner ?s1 ?s2 ?s3)
-  => (try-grasp PINCH-3-CORNER ?s1 any ?s2 any ?s3 any))
+  => (try-grasp PINCH-3-CORNER ?s1 any ?s2 any ?s3 any)
+     (try-grasp PINCH-2-ADJACENT) (try-grasp PINCH-3-ADJACENT) (halt))
 
 (defrule GRIP5 (declare (salience 70))
-  (free-corners)
-  (not (parallel-surfaces))
-  => (try-grasp PINCH-2-ADJACENT) (try-grasp PINCH-3-ADJACENT) (halt))
+  (or (wide ?s1 ?s2) (wide ?s2 ?s1))
+  (parallel ?s3 ?s4)
+  (not (wide ?s3 ?s4))
+  => (assert (other-parallel-surfaces))
+     (try-grasp PINCH-3-CORNER ?s1 any any any any any))
 
 (defrule GRIP6 (declare (salience 60))
   (not (free-corners))
@@ -78,6 +81,7 @@
 
 (defrule GRIP7 (declare (salience 50))
   (or (parallel ?s1 ?s2) (parallel ?s2 ?s1))
+  (not (wide ?s1 ?s2)) (not (wide ?s2 ?s1))
   (or (narrow ?s3&~?s1&~?s2 ?s4) (narrow ?s4 ?s3&~?s1&~?s2))
   (not (small ?s3 ?s4)) (not (small ?s4 ?s3))
   (or (opposed ?s5&~?s1&~?s2&~?s3&~?s4 ?s6) (opposed ?s6 ?s5&~?s1&~?s2&~?s3&~?s4))
@@ -94,14 +98,18 @@
 
 (defrule GRIP9 (declare (salience 30))
   (or (parallel ?s1 ?s2) (parallel ?s2 ?s1))
-  (not (wide ?s1 ?s2))
-  (not (wide ?s2 ?s1))
-  => (try-grasp PINCH-3-PARALLEL ?s1 ?s2 any any any any))
+  (not (wide ?s1 ?s2)) (not (wide ?s2 ?s1))
+  (or (opposed ?s5&~?s1&~?s2 ?s6) (opposed ?s6 ?s5&~?s1&~?s2))
+  (not (constrained ?s6))
+  (opposed ?s3&~?s1&~?s2&~?s5&~?s6 ?s4)
+  (not (narrow ?s3 ?s4)) (not (narrow ?s4 ?s3))
+  => (try-grasp PINCH-3-PARALLEL ?s1 ?s2 any any ?s5 ?s6))
 
 (defrule GRIP10 (declare (salience 20))
   (or (wide ?s1 ?s2) (wide ?s2 ?s1))
-  (or (corner ?s1 ?s3 ?s4) (corner ?s3 ?s1 ?s4) (corner ?s3 ?s4 ?s1))
-  => (try-grasp PINCH-3-CORNER ?s1 any ?s3 any ?s4 any))
+  (not (other-parallel-surfaces))
+  => (try-grasp PINCH-3-CORNER ?s1 any any any any any)
+     (try-grasp PINCH-2-ADJACENT) (try-grasp PINCH-3-ADJACENT))
 
 (defrule GRIP11 (declare (salience 10))
   (parallel-surfaces)
@@ -117,7 +125,7 @@
   (progn$ (?fact (get-fact-list))
     (if (member$ (fact-relation ?fact)
                  (create$ parallel adjacent corner wide
-                          parallel-surfaces adjacent-surfaces free-corners))
+                          parallel-surfaces adjacent-surfaces other-parallel-surfaces free-corners))
      then (bind ?count (+ ?count 1))))
   ?count)
 

@@ -16,12 +16,17 @@
 ;;; The rule part: the shipped rules with PASS, which notes its binding in the log, for TRY
 
 (supergrip-chainer:define-action :pass (action rulebase)
+  (setf (supergrip-chainer:action-terms action)
+        (supergrip::parse-suggestion (rest (supergrip-chainer:action-operands action)) action))
   (let ((rule supergrip-chainer:*rule*)
         (number (supergrip-chainer::action-number action)))
     (setf (supergrip-chainer:action-function action)
           (lambda (memory binding)
             (supergrip-chainer:log-event memory rule number binding)
             nil))))
+
+(defmethod supergrip-chainer:symmetric-action-p ((verb (eql :pass)) action a b)
+  (supergrip-chainer:symmetric-action-p :try action a b))
 
 (defun without-try (rule)
   "Return the form RULE with PASS in the place of TRY."
