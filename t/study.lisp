@@ -2,6 +2,7 @@
 ;;;;
 ;;;; sbcl --script t/study.lisp                              what docs/reconstruction.md counts
 ;;;; sbcl --script t/study.lisp cases | python3 t/cones.py   how tight bounds are, for docs/physics.md
+;;;; sbcl --script t/study.lisp compare RULES GRASPS         what other files answer differently
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
 
@@ -57,25 +58,115 @@ grasps.lisp."
                    (furthest text number (* 0.95d0 number))
                    (furthest text number (* 1.05d0 number)))))
 
-;;; Counts
+;;; The rules against every grasp in every matching
 
-(defun on-a-table (box state)
-  "Return BOX with 1 to 15 cm a side, light, on a table."
-  (loop for entry in box
-        collect (case (first entry)
-                  (size `(size ,@(loop repeat 3 collect (random-between 1d0 15d0 state))))
-                  (weight `(weight ,(random 0.5d0 state)))
-                  (u `(u ,(+ 0.3d0 (random 0.7d0 state))))
-                  (constrained '(constrained z2))
-                  (t entry))))
+(defparameter *kinds*
+  '(("all sizes" random-box) ("on a table" table-box) ("household" household-box)
+    ("rubber" rubber-box))
+  "Kinds of random boxes, and the function that makes one.")
+
+(defun boxes-of (maker count seed)
+  (loop with state = (sb-ext:seed-random-state seed)
+        repeat count collect (supergrip:parse-box (funcall maker state))))
+
+(defun plans (boxes knowledge &optional (gamma 0.5d0))
+  (loop for box in boxes collect (supergrip:plan box :knowledge knowledge :gamma gamma)))
+
+(defun count-worse (ours others)
+  "Return how many of OURS, plans, have a grasp of lower quality than those of OTHERS have."
+  (loop for our in ours for other in others
+        count (and (supergrip:plan-grasp our) (supergrip:plan-grasp other)
+                   (< (supergrip:plan-quality our) (- (supergrip:plan-quality other) 1d-9)))))
+
+(defun microseconds (boxes knowledge)
+  "Return the processor time of a plan, the mean of BOXES by KNOWLEDGE, in microseconds."
+  (let ((start (get-internal-run-time)))
+    (dolist (box boxes)
+      (supergrip:plan box :knowledge knowledge))
+    (/ (- (get-internal-run-time) start)
+       (/ internal-time-units-per-second 1000000d0) (length boxes))))
+
+(defun least-times (boxes &rest several)
+  "Return the least time of a plan of BOXES by each knowledge of SEVERAL, measured in turn."
+  (loop with least = (mapcar (constantly 1d9) several)
+        repeat 20
+        do (setf least (loop for knowledge in several for time in least
+                             collect (min time (microseconds boxes knowledge))))
+        finally (return least)))
+
+(defun tried (plans)
+  (/ (loop for plan in plans sum (length (supergrip:plan-candidates plan))) (length plans)))
+
+(defun reason-p (text plan)
+  (eql 0 (search text (supergrip:plan-reason plan))))
+
+(defun why-missed (ours wide)
+  "Return why OURS, a plan, has no grasp though some grasp in some matching is possible; WIDE is the
+plan by every grasp on faces as wide as a fingertip."
+  (cond ((reason-p "CANT GRASP TOO SLIPPERY" ours) :slippery)
+        ((null (supergrip:plan-grasp wide)) :thin)
+        (t :other)))
+
+(defun misses (ours all wide)
+  "Return how many plans of ALL have a grasp, but not of OURS: too slippery, too thin, others."
+  (loop for our in ours for one in all for w in wide
+        for missed = (and (supergrip:plan-grasp one) (null (supergrip:plan-grasp our))
+                          (why-missed our w))
+        count (eq missed :slippery) into slippery
+        count (eq missed :thin) into thin
+        count (eq missed :other) into other
+        finally (return (list slippery thin other))))
+
+(defun print-claim (everything wide)
+  "Print what the rules try, find and reach, against EVERYTHING, knowledge without rules; WIDE is
+the same with PINCH-2-PARALLEL on faces as wide as a fingertip."
+  (loop for (kind maker) in *kinds*
+        do (let* ((boxes (boxes-of maker 3000 1))
+                  (ours (plans boxes supergrip:*knowledge*))
+                  (all (plans boxes everything))
+                  (all-wide (plans boxes wide)))
+             (format t "3000 boxes, ~a~%~2tcandidates a box: ~,1f by the rules, ~,1f by all~%"
+                     kind (tried ours) (tried all))
+             (format t "~2tboxes with a grasp: ~d, ~d~%" (count-if #'supergrip:plan-grasp ours)
+                     (count-if #'supergrip:plan-grasp all))
+             (format t "~{~2tmissed: ~d too slippery, ~d too thin, ~d others~%~}"
+                     (misses ours all all-wide))
+             (format t "~2ta lower quality than by all: ~d; with gamma 0: ~d; with gamma 1: ~d~%"
+                     (count-worse ours all-wide)
+                     (count-worse (plans boxes supergrip:*knowledge* 0d0) (plans boxes wide 0d0))
+                     (count-worse (plans boxes supergrip:*knowledge* 1d0) (plans boxes wide 1d0)))
+             (format t "~{~2ttime of a plan: ~,1f µs, ~,1f µs~%~}"
+                     (least-times boxes supergrip:*knowledge* everything)))))
+
+(defun with-widths (grasps small face)
+  "Return GRASPS, a text, with SMALL for the rules and FACE for the faces of grasps, in cm."
+  (let ((name "FINGER-WIDTH  0.3"))
+    (loop for place = (search ">= FINGER-WIDTH" grasps)
+          while place
+          do (setf grasps (format nil "~a>= FACE-WIDTH~a" (subseq grasps 0 place)
+                                  (subseq grasps (+ place (length ">= FINGER-WIDTH"))))))
+    (replace-once grasps name (format nil "FINGER-WIDTH ~a FACE-WIDTH ~a" small face))))
+
+(defun print-widths ()
+  "Print what other widths of a fingertip would do, one for rules and grasps or one for each."
+  (let ((boxes (boxes-of 'household-box 3000 2)) (grasps (file-text "grasps.lisp")))
+    (loop for (small face) in '((0.6 0.6) (0.5 0.5) (0.4 0.4) (0.3 0.3) (0.2 0.2) (0.1 0.1)
+                                (0.3 0.6) (0.6 0.3))
+          do (let* ((text (with-widths grasps small face))
+                    (wide (with-widths (with-wide-faces grasps) small face))
+                    (ours (plans boxes (text-knowledge (file-text "rules.lisp") text))))
+               (destructuring-bind (slippery thin others)
+                   (misses ours (plans boxes (everything-knowledge text))
+                           (plans boxes (everything-knowledge wide)))
+                 (declare (ignore slippery))
+                 (format t "SMALL below ~a cm, faces from ~a cm: ~d of 3000 household boxes have a ~
+                            grasp; missed: ~d that PINCH-2-PARALLEL alone holds, ~d others~%"
+                         small face (count-if #'supergrip:plan-grasp ours) thin others))))))
+
+;;; U and C
 
 (defun possible-p (candidate)
   (eq :possible (supergrip:candidate-outcome candidate)))
-
-(defun all-candidates (box)
-  "Return the candidates of every grasp in every matching on BOX."
-  (loop for (grasp) in *exact*
-        append (supergrip:plan-candidates (supergrip:try-grasp grasp box))))
 
 (defun same-contacts-p (u-shape c-shape)
   "True if the candidates U-SHAPE and C-SHAPE close across the same pair, have the same third
@@ -95,20 +186,15 @@ face, and the same palm."
           for c = (find-if (lambda (c) (same-contacts-p u c)) (of "PINCH-3-C-SHAPE"))
           when c collect (cons u c))))
 
-(defun print-counts (kind make-box)
-  (let ((tried 0) (all 0) (pairs 0) (one 0))
-    (dotimes (i 3000)
-      (let* ((box (funcall make-box))
-             (candidates (all-candidates box)))
-        (incf tried (length (supergrip:plan-candidates (supergrip:plan box))))
-        (incf all (length candidates))
-        (loop for (u . c) in (u-and-c-shapes candidates)
-              do (when (or (possible-p u) (possible-p c))
-                   (incf pairs)
-                   (unless (and (possible-p u) (possible-p c)) (incf one))))))
-    (format t "3000 ~a: ~,1f candidates a box by the rules, ~,1f by every grasp in every matching~%~
-               ~2t~d pairs of U and C with the same contacts where one is possible; in ~d only one~%"
-            kind (/ tried 3000) (/ all 3000) pairs one)))
+(defun print-shapes (everything)
+  (loop for (kind maker) in (subseq *kinds* 0 2)
+        do (let ((pairs 0) (one 0))
+             (dolist (plan (plans (boxes-of maker 3000 1) everything))
+               (loop for (u . c) in (u-and-c-shapes (supergrip:plan-candidates plan))
+                     do (when (or (possible-p u) (possible-p c)) (incf pairs))
+                        (unless (eq (possible-p u) (possible-p c)) (incf one))))
+             (format t "3000 boxes, ~a: ~d pairs of U and C with the same contacts where one is ~
+                        possible; in ~d only one~%" kind pairs one))))
 
 ;;; The textbook's chainer
 
@@ -152,10 +238,21 @@ tries something new: again with all rules up to it, until there is none."
           (incf different))))
     (format t "3000 random boxes: ~d transcripts differ if rules start again at the top~%" different)))
 
-(if (equal (second sb-ext:*posix-argv*) "cases")
-    (print-cases (sb-ext:seed-random-state 1))
-    (let ((state (sb-ext:seed-random-state 1)))
-      (print-ranges)
-      (print-counts "random boxes" (lambda () (random-box state)))
-      (print-counts "boxes on a table" (lambda () (on-a-table (random-box state) state)))
-      (print-differences state)))
+;;; Other knowledge
+
+(defun print-comparison (rules grasps)
+  "Print which of 10,000 random boxes the files RULES and GRASPS answer differently."
+  (supergrip:compare-knowledge (supergrip:load-knowledge :rules rules :grasps grasps)
+                               supergrip:*knowledge* (boxes-of 'random-box 10000 2026)))
+
+(destructuring-bind (&optional what . files) (rest sb-ext:*posix-argv*)
+  (cond ((equal what "cases") (print-cases (sb-ext:seed-random-state 1)))
+        ((equal what "compare") (apply #'print-comparison files))
+        (t
+         (let ((everything (everything-knowledge))
+               (wide (everything-knowledge (with-wide-faces (file-text "grasps.lisp")))))
+           (print-ranges)
+           (print-claim everything wide)
+           (print-widths)
+           (print-shapes everything)
+           (print-differences (sb-ext:seed-random-state 1))))))
