@@ -122,6 +122,7 @@
                              (:file "error-reports")
                              (:file "suggest")
                              (:file "names")
+                             (:file "files")
                              (:file "numbers")
                              (:file "reader")
                              (:file "error-recovery")))

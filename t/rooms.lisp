@@ -20,11 +20,16 @@
 
 (defparameter *source* (truename (asdf:system-relative-pathname "supergrip" "src/")))
 
+(defparameter *files* (make-hash-table :test #'equal) "What FILE-OF has answered.")
+
 (defun file-of (pathname)
   "Return the name of the file PATHNAME below src/, as \"hand/box.lisp\", or NIL if it is elsewhere."
-  (let* ((pathname (and pathname (probe-file pathname)))
-         (name (and pathname (enough-namestring pathname *source*))))
-    (and name (string/= name (namestring pathname)) name)))
+  (flet ((look ()
+           (let* ((pathname (and pathname (probe-file pathname)))
+                  (name (and pathname (enough-namestring pathname *source*))))
+             (and name (string/= name (namestring pathname)) name))))
+    (multiple-value-bind (file found) (gethash pathname *files*)
+      (if found file (setf (gethash pathname *files*) (look))))))
 
 (defun files ()
   "Return the files of all systems in the order in which they are loaded."
@@ -47,6 +52,11 @@
 
 ;;; Who uses what
 
+(defun file-of-function (function)
+  "Return the file that FUNCTION, compiled, comes from, or NIL if it is elsewhere."
+  (let ((source (ignore-errors (sb-introspect:find-definition-source function))))
+    (and source (file-of (sb-introspect:definition-source-pathname source)))))
+
 (defun ours-p (symbol)
   (let ((package (symbol-package symbol)))
     (and package (eql 0 (search "SUPERGRIP" (package-name package))))))
@@ -68,24 +78,53 @@
         (when file (return-from home file))))))
 
 (defparameter *kinds*
-  '((sb-introspect:who-calls :function :generic-function :structure-accessor)
-    (sb-introspect:who-macroexpands :macro :symbol-macro)
-    (sb-introspect:who-references :variable :constant)
-    (sb-introspect:who-binds :variable)
-    (sb-introspect:who-sets :variable))
-  "Each cross reference, and what kinds of definition it is about.")
+  '((:calls :function :generic-function :structure-accessor)
+    (:macroexpands :macro :symbol-macro)
+    (:references :variable :constant)
+    (:binds :variable)
+    (:sets :variable))
+  "Each cross reference of SBCL, and what kinds of definition it is about.")
+
+(defun map-functions (visit)
+  "Call VISIT with each compiled function of this Lisp."
+  (sb-vm:map-allocated-objects
+   (lambda (object type size)
+     (declare (ignore size))
+     (when (= type sb-vm:code-header-widetag)
+       (dotimes (number (sb-kernel:code-n-entries object))
+         (funcall visit (sb-kernel:%code-entry-point object number)))))
+   :all))
+
+(defun map-uses (visit)
+  "Call VISIT with each compiled function, a kind of reference and the name that it refers to.
+SB-INTROSPECT:WHO-CALLS and its like would look through all functions for each name."
+  (map-functions
+   (lambda (function)
+     (let ((references (sb-kernel:%simple-fun-xrefs function)))
+       (when references
+         (sb-c:map-packed-xref-data (lambda (kind name number)
+                                      (declare (ignore number))
+                                      (funcall visit function kind name))
+                                    references))))))
 
 (defun edges ()
   "Return a list of (USER USED SYMBOL), two files and why, each pair of files once for each symbol."
-  (let ((edges '()))
-    (dolist (symbol (our-symbols) edges)
-      (loop for (who . kinds) in *kinds*
-            for used = (home symbol kinds)
-            when used
-              do (loop for (nil . source) in (funcall who symbol)
-                       for user = (file-of (sb-introspect:definition-source-pathname source))
-                       when (and user (string/= user used))
-                         do (pushnew (list user used symbol) edges :test #'equal))))))
+  (let ((homes (make-hash-table :test #'equal))
+        (edges (make-hash-table :test #'equal))
+        (ours (make-hash-table)))
+    (dolist (symbol (our-symbols)) (setf (gethash symbol ours) t))
+    (flet ((home-of (kind symbol)
+             (let ((key (list kind symbol)))
+               (if (nth-value 1 (gethash key homes))
+                   (gethash key homes)
+                   (setf (gethash key homes) (home symbol (rest (assoc kind *kinds*))))))))
+      (map-uses
+       (lambda (function kind symbol)
+         (when (and (symbolp symbol) (gethash symbol ours))
+           (let ((used (home-of kind symbol)) (user (file-of-function function)))
+             (when (and used user (string/= user used))
+               (setf (gethash (list user used symbol) edges) t)))))))
+    (loop for edge being the hash-keys of edges collect edge)))
 
 ;;; What is wrong
 
