@@ -55,9 +55,9 @@ MOST are all that are used."
 
 (defstruct code
   "Code being written.  STEPS, the latest first, are functions from the next closure to that of the
-step.  DONE says what is already computed: an alist from nodes, and from operators on registers, to
-registers.  TOP is the first free register of LAYOUT."
-  (steps '()) (done '()) (top 0 :type register) layout)
+step.  NODES and OPERATIONS say what is already computed: alists from nodes, and from operators with
+their operands, to registers.  TOP is the first free register of LAYOUT."
+  (steps '()) (nodes '()) (operations '()) (top 0 :type register) layout)
 
 (defun new-code (layout)
   (make-code :layout layout :top (layout-base layout)))
@@ -87,10 +87,14 @@ registers.  TOP is the first free register of LAYOUT."
 (defun write-number (node code &optional to)
   "Write NODE, and return the register that will hold its number: TO, if it is given and the number
 is in none yet."
-  (or (cdr (assoc node (code-done code) :test #'eq))
+  (or (done-node node code)
       (let ((register (write-new-number node code to)))
-        (push (cons node register) (code-done code))
+        (push (cons node register) (code-nodes code))
         register)))
+
+(defun done-node (node code)
+  "Return the register that holds the number of NODE, or NIL."
+  (cdr (assoc node (code-nodes code) :test #'eq)))
 
 (defun write-new-number (node code to)
   (node-case (:number node)
@@ -101,22 +105,43 @@ is in none yet."
         (write-number node code))
       (write-number body code to))
     (:operation (operator . nodes)
-      (write-operation operator (loop for node in nodes collect (write-number node code)) code to))
+      (write-operation operator (write-operands nodes code) code to))
     (:cond (&rest clauses)
       (let ((to (or to (new-register code))))
         (write-clauses clauses code (lambda (node code) (write-number-into node code to)))
         to))))
 
-(defun write-operation (operator from code to)
-  "Write OPERATOR on the registers FROM, one or two, unless that is done.  Return the register of the
-result."
-  (flet ((done-p (key)
-           (and (consp key) (eq operator (first key)) (equal from (rest key)))))
-    (or (cdr (assoc-if #'done-p (code-done code)))
-        (let ((to (or to (new-register code))))
-          (add-step code (lambda (next) (apply (arithmetic-step operator) next to from)))
-          (push (cons (cons operator from) to) (code-done code))
-          to))))
+(defun done-operation (operator operands code)
+  "Return the register that holds what OPERATOR gives for OPERANDS, or NIL."
+  (cdr (assoc (cons operator operands) (code-operations code) :test #'equal)))
+
+(defun write-operands (nodes code)
+  "Write NODES, one or two, and return the operand of each: the register that will hold its number, or
+the inner operation that gives it (see CLOSURE-ON)."
+  (loop for node in nodes
+        collect (or (and (eq (node-kind node) :operation)
+                         ;; The same number twice, as in a square, is computed once.
+                         (not (eq (first nodes) (second nodes)))
+                         (not (done-node node code))
+                         (write-inner-operation (node-args node) code))
+                    (write-number node code))))
+
+(defun write-inner-operation (operation code)
+  "Write the arguments of OPERATION, an operator and nodes, and return its operand; NIL if it can't be
+inside another operation."
+  (destructuring-bind (operator . nodes) operation
+    (when (arithmetic-inner operator)
+      (let ((from (loop for node in nodes collect (write-number node code))))
+        (or (done-operation operator from code)
+            (cons (arithmetic-inner operator) from))))))
+
+(defun write-operation (operator operands code to)
+  "Write OPERATOR on OPERANDS, unless that is done.  Return the register of the result."
+  (or (done-operation operator operands code)
+      (let ((to (or to (new-register code))))
+        (add-step code (lambda (next) (apply (arithmetic-step operator) next to operands)))
+        (push (cons (cons operator operands) to) (code-operations code))
+        to)))
 
 (defun write-number-into (node code to)
   "Write NODE, so that the register TO will hold its number."
@@ -188,7 +213,7 @@ where it is true and where it is false, to the closure that decides."
     (:constrained (grasp-face)
       (lambda (then else) (constrained-step then else (+ +blocked+ grasp-face))))
     (:comparison (comparison a b)
-      (let ((a (write-number a code)) (b (write-number b code)))
+      (destructuring-bind (a b) (write-operands (list a b) code)
         (lambda (then else) (funcall (comparison-step comparison) then else a b))))))
 
 (defun write-test-aside (node code)

@@ -1,8 +1,11 @@
 ;;;; operators.lisp -- the operators on numbers and the comparisons: one row each.
 ;;;;
 ;;;; All numbers live in one array of doubles, the registers.  An operator on some of them is a
-;;;; closure that reads its registers, writes one, and calls the next closure: nothing is boxed.  No
-;;;; register ever holds an infinity or a NaN: a closure that would write one ends its chain, which
+;;;; closure that reads its registers, writes one, and calls the next closure: nothing is boxed.  Where
+;;;; an argument is a sum, a difference or a product, the closure computes it too, so that one call
+;;;; does two operations.
+;;;;
+;;;; No register ever holds an infinity or a NaN: a closure that would write one ends its chain, which
 ;;;; then returns NIL.  So results do not depend on the float traps of the caller.
 
 (in-package :supergrip)
@@ -38,13 +41,14 @@ a complaint."
 (defstruct (arithmetic (:include operator (gives '(:number)) (parse 'parse-arithmetic)))
   "An operator on numbers.  LEAST and MOST (NIL: any) count its arguments; FIRST is the number that
 stands before a single argument, or NIL.  STEP makes its closure, from the next closure, the
-register to write and those to read."
+register to write and the operands to read; INNER is what the operator is called in operands, or NIL
+(see CLOSURE-ON)."
   (least 1 :type fixnum) (most nil :type (or null fixnum)) (first nil :type (or null double-float))
-  (step nil :type function))
+  (inner nil :type symbol) (step nil :type function))
 
 (defstruct (comparison (:include operator (gives '(:test)) (parse 'parse-prefix-comparison)))
   "A comparison of two numbers.  STEP makes its closure, from the closures to call next if it holds
-and if it does not, and the registers of the two numbers.  For texts, OPPOSITE names what holds where
+and if it does not, and the operands, which give the two numbers.  For texts, OPPOSITE names what holds where
 it does not, and MIRROR the comparison that says the same of the numbers exchanged, or they are NIL."
   (step nil :type function) (opposite nil) (mirror nil))
 
@@ -54,7 +58,11 @@ it does not, and MIRROR the comparison that says the same of the numbers exchang
 
 (defun find-operator (name)
   "Return the operator that NAME, a string, names, or NIL."
-  (find name *operators* :key #'operator-name :test #'string=))
+  (flet ((named-p (operator)
+           (let ((known (operator-name operator)))
+             ;; Most differ in length: STRING= is slower.
+             (and (= (length known) (length name)) (string= known name)))))
+    (find-if #'named-p *operators*)))
 
 (defun add-operator (operator)
   "Put OPERATOR into the table, in the place of one of its name or at the end."
@@ -69,29 +77,62 @@ it does not, and MIRROR the comparison that says the same of the numbers exchang
   `(let ,(loop for name in names collect `(,name (gensym ,(string name))))
      ,@body))
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defparameter +inner-operators+ '(+ - *)
+    "Functions that a closure does itself on two registers, before what it is for.  What they give is
+not finite if one of their arguments is not."))
+
+(defmacro closure-on ((registers checked &rest bindings) &body body)
+  "Return a closure of REGISTERS that runs BODY with the numbers of operands.  Each of BINDINGS is a
+variable and a place that holds its operand: a register, or a list of one of +INNER-OPERATORS+ and two
+registers.  A closure is compiled for each.  If CHECKED is true, it returns NIL where an inner operator
+gives no finite number."
+  (if (null bindings)
+      `(lambda (,registers)
+         (declare (type registers ,registers))
+         ,@body)
+      (destructuring-bind ((variable operand) . others) bindings
+        (with-closure-names (a b)
+          (flet ((closure-with (form inner)
+                   `(closure-on (,registers ,checked ,@others)
+                      (let ((,variable ,form))
+                        ,@(if (and inner checked)
+                              `((when (finite-p ,variable) ,@body))
+                              body)))))
+            `(if (integerp ,operand)
+                 (let ((,a ,operand))
+                   (declare (type register ,a))
+                   ,(closure-with `(aref ,registers ,a) nil))
+                 (let ((,a (second ,operand)) (,b (third ,operand)))
+                   (declare (type register ,a ,b))
+                   (ecase (first ,operand)
+                     ,@(loop for operator in +inner-operators+
+                             collect `(,operator
+                                       ,(closure-with `(,operator (aref ,registers ,a)
+                                                                  (aref ,registers ,b))
+                                                      t)))))))))))
+
 (defmacro define-operator (name (x &optional y) value
-                           &key (counts (if y '(2 2) '(1 1))) first (when t)
+                           &key (counts (if y '(2 2) '(1 1))) first inner finite (when t)
                              (parse 'parse-arithmetic))
   "Define NAME as an operator that gives VALUE, a form that makes a double of the doubles X and Y.
-It has no value where WHEN is false, nor where VALUE is no finite double.  COUNTS are the least and
-the greatest count of arguments; more than two are taken from the left, and one alone stands for
-itself, or follows the number FIRST."
+It has no value where WHEN is false, nor where VALUE is no finite double, which is not looked at if
+it is FINITE in any case.  COUNTS are the least and the greatest count of arguments; more than two
+are taken from the left, and one alone stands for itself, or follows the number FIRST.  INNER is the
+function of +INNER-OPERATORS+ that does the same, if there is one."
   (with-closure-names (next to a b registers result)
-    (let ((from (if y (list a b) (list a))))
-      `(add-operator
-        (make-arithmetic
-         :name ,name :least ,(first counts) :most ,(second counts) :first ,first :parse ',parse
-         :step (lambda (,next ,to ,@from)
-                 (declare (function ,next) (type register ,to ,@from))
-                 (lambda (,registers)
-                   (declare (type registers ,registers))
-                   (let ((,x (aref ,registers ,a))
-                         ,@(and y `((,y (aref ,registers ,b)))))
-                     (when ,when
-                       (let ((,result ,value))
-                         (when (and (typep ,result 'double-float) (finite-p ,result))
-                           (setf (aref ,registers ,to) ,result)
-                           (funcall ,next ,registers))))))))))))
+    `(add-operator
+      (make-arithmetic
+       :name ,name :least ,(first counts) :most ,(second counts) :first ,first :parse ',parse
+       :inner ',inner
+       :step (lambda (,next ,to ,a ,@(and y (list b)))
+               (declare (function ,next) (type register ,to))
+               (closure-on (,registers ,(not inner) (,x ,a) ,@(and y `((,y ,b))))
+                 (when ,when
+                   (let ((,result ,value))
+                     (when ,(or finite `(and (typep ,result 'double-float) (finite-p ,result)))
+                       (setf (aref ,registers ,to) ,result)
+                       (funcall ,next ,registers))))))))))
 
 (defmacro define-comparison (name (x y) test &key opposite mirror)
   "Define NAME as a comparison, which holds if TEST is true of the doubles X and Y.  OPPOSITE and MIRROR
@@ -101,26 +142,23 @@ are for texts: see COMPARISON."
       (make-comparison
        :name ,name :opposite ,opposite :mirror ,mirror
        :step (lambda (,then ,else ,a ,b)
-               (declare (function ,then ,else) (type register ,a ,b))
-               (lambda (,registers)
-                 (declare (type registers ,registers))
-                 (let ((,x (aref ,registers ,a))
-                       (,y (aref ,registers ,b)))
-                   (if ,test (funcall ,then ,registers) (funcall ,else ,registers)))))))))
+               (declare (function ,then ,else))
+               (closure-on (,registers t (,x ,a) (,y ,b))
+                 (if ,test (funcall ,then ,registers) (funcall ,else ,registers))))))))
 
 ;;; The rows
 
-(define-operator "+" (x y) (+ x y) :counts (1))
-(define-operator "-" (x y) (- x y) :counts (1) :first 0d0)
-(define-operator "*" (x y) (* x y) :counts (1))
+(define-operator "+" (x y) (+ x y) :counts (1) :inner +)
+(define-operator "-" (x y) (- x y) :counts (1) :first 0d0 :inner -)
+(define-operator "*" (x y) (* x y) :counts (1) :inner *)
 (define-operator "/" (x y) (/ x y) :counts (1 2) :first 1d0 :when (/= y 0d0))
-(define-operator "SQRT" (x) (sqrt (the (double-float 0d0) x)) :when (>= x 0d0))
+(define-operator "SQRT" (x) (sqrt (the (double-float 0d0) x)) :when (>= x 0d0) :finite t)
 ;; A power of a negative number may be complex: then there is no value.
 (define-operator "EXPT" (x y) (expt x y) :parse parse-power)
-(define-operator "MIN" (x y) (if (< y x) y x) :counts (1))
-(define-operator "MAX" (x y) (if (> y x) y x) :counts (1))
-(define-operator "ABS" (x) (abs x))
-(define-operator "POSIT" (x) (if (> x 0d0) x 0d0))
+(define-operator "MIN" (x y) (if (< y x) y x) :counts (1) :finite t)
+(define-operator "MAX" (x y) (if (> y x) y x) :counts (1) :finite t)
+(define-operator "ABS" (x) (abs x) :finite t)
+(define-operator "POSIT" (x) (if (> x 0d0) x 0d0) :finite t)
 
 (define-comparison "<" (x y) (< x y) :opposite ">=" :mirror ">")
 (define-comparison "<=" (x y) (<= x y) :opposite ">" :mirror ">=")

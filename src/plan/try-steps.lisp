@@ -85,7 +85,8 @@ the workspace, returns true if it passes.  NAME is a symbol."
 in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keyword."
   `(put-step (make-try-step ,outcome ',name
                             (lambda (,candidate ,workspace)
-                              (declare (ignorable ,candidate ,workspace))
+                              (declare (type candidate ,candidate) (type workspace ,workspace)
+                                       (ignorable ,candidate ,workspace))
                               ,@body))))
 
 (defun run-steps (workspace candidate)
@@ -104,8 +105,9 @@ in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keywo
   "Return what candidates may have, in the order of the steps; the last is :POSSIBLE."
   (append (remove-duplicates (map 'list #'try-step-outcome *steps*) :from-end t) '(:possible)))
 
-;;; What the steps do
+;;; The rows
 
+(declaim (inline place-box))
 (defun place-box (workspace matching)
   "Put the distances of the faces, and which are constrained, into the registers."
   (declare (type workspace workspace) (type matching matching))
@@ -122,14 +124,17 @@ in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keywo
             (if (logbitp (the face (svref (matching-faces matching) grasp-face)) constrained)
                 1d0 0d0)))))
 
-(defun find-centre (workspace grasp)
-  "Put the grasp centre, in the grasp frame from the box centre, into the workspace.
-Entries for opposite faces say the same shift, so they must be opposite numbers."
-  (declare (type workspace workspace) (type grasp grasp))
+(define-step conditions :conditions (candidate workspace)
+  (place-box workspace (%candidate-matching candidate))
+  (execute (grasp-conditions (%candidate-grasp candidate)) (workspace-registers workspace)))
+
+(define-step offset :offset (candidate workspace)
+  ;; Entries for opposite faces say the same shift, so they must be opposite numbers.
   (let* ((registers (workspace-registers workspace))
-         (results (program-results (grasp-offset grasp)))
+         (program (grasp-offset (%candidate-grasp candidate)))
+         (results (program-results program))
          (centre (workspace-centre workspace)))
-    (and (execute (grasp-offset grasp) registers)
+    (and (execute program registers)
          (dotimes (i 3 t)
            (let* ((plus (aref registers (aref results (* 2 i))))
                   (minus (aref registers (aref results (1+ (* 2 i)))))
@@ -138,38 +143,39 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
                (return nil))
              (setf (aref centre i) (* 0.5d0 both)))))))
 
-(declaim (inline inside-p))
+(declaim (inline turn-centre inside-p))
 (defun inside-p (place length)
   (declare (double-float place length))
   (<= (abs place) (* 0.5d0 length (+ 1d0 1d-9))))
 
-(defun fingers-on-faces-p (workspace grasp)
-  "True if every finger is inside the edges of its face."
-  (declare (type workspace workspace))
-  (let ((registers (workspace-registers workspace))
-        (centre (workspace-centre workspace))
-        (lengths (workspace-lengths workspace)))
+(define-step fingers :fingers (candidate workspace)
+  (let* ((registers (workspace-registers workspace))
+         (centre (workspace-centre workspace))
+         (lengths (workspace-lengths workspace))
+         (grasp (%candidate-grasp candidate))
+         (places (grasp-places grasp)))
     (and (execute (grasp-positions grasp) registers)
-         (loop with places = (grasp-places grasp)
-               for place from 0 below (length places) by 2
+         (loop for place from 0 below (length places) by 2
                always (let ((axis (aref places place))
                             (register (aref places (1+ place))))
                         (inside-p (+ (aref centre axis) (aref registers register))
                                   (aref lengths axis)))))))
 
-(defun compute-capacities (workspace grasp matching)
-  "Put wrench and twist, rotated to X Y Z, into the workspace.  True if the grasp is closed."
-  (declare (type workspace workspace) (type matching matching))
-  (let ((registers (workspace-registers workspace)))
-    (flet ((rotate (program out least)
-             (declare (type six out) (double-float least))
+(define-step closure :open (candidate workspace)
+  (let ((grasp (%candidate-grasp candidate))
+        (axes (matching-axes (%candidate-matching candidate)))
+        (registers (workspace-registers workspace)))
+    (flet ((turn (program out least)
+             (declare (type program program) (type six out) (double-float least))
              (and (execute program registers)
-                  (dotimes (i 6 t)
-                    (let ((entry (aref registers (aref (program-results program) i))))
-                      (unless (> entry least) (return nil))
-                      (setf (aref out (aref (matching-axes matching) i)) entry))))))
-      (and (rotate (grasp-wrench grasp) (workspace-wrench workspace) 0d0)
-           (rotate (grasp-twist grasp) (workspace-twist workspace) -1d-300)))))
+                  (loop for axis across axes
+                        for register across (program-results program)
+                        always (let ((entry (aref registers register)))
+                                 (when (> entry least)
+                                   (setf (aref out axis) entry)
+                                   t))))))
+      (and (turn (grasp-wrench grasp) (workspace-wrench workspace) 0d0)
+           (turn (grasp-twist grasp) (workspace-twist workspace) -1d-300)))))
 
 (defun turn-centre (workspace matching candidate)
   "Put the grasp centre into CANDIDATE, in the box frame."
@@ -185,23 +191,20 @@ Entries for opposite faces say the same shift, so they must be opposite numbers.
     (dotimes (i 3)
       (setf (aref offset i) (abs (aref offset i))))))
 
-(defun bears-load-p (workspace)
-  "Put gravity's load into the workspace.  True if the wrench bears it.
-Each axis may be loaded by a share of what the grasp bears there alone; the shares may not exceed 1
-together, since the axes use the same friction.  Sound: the six capacities, both ways, span a
-cross-polytope of wrenches that the contacts can exert."
-  (declare (type workspace workspace))
+(define-step lifting :lifting (candidate workspace)
+  ;; Each axis may be loaded by a share of what the grasp bears there alone; the shares may not
+  ;; exceed 1 together, since the axes use the same friction.  Sound: the six capacities, both ways,
+  ;; span a cross-polytope of wrenches that the contacts can exert.
   (let ((load (workspace-load workspace))
         (wrench (workspace-wrench workspace))
         (shares 0d0))
     (declare (double-float shares))
+    (turn-centre workspace (%candidate-matching candidate) candidate)
     (put-load (%box-weight (workspace-box workspace)) (workspace-offset workspace) load)
     (dotimes (axis 6 (<= shares 1d0))
       (incf shares (/ (aref load axis) (aref wrench axis))))))
 
-(defun rate (workspace candidate)
-  "Compute the radii and the quality of CANDIDATE.  True if they are numbers in range."
-  (declare (type workspace workspace) (type candidate candidate))
+(define-step quality :open (candidate workspace)
   (let ((box (workspace-box workspace))
         (offset (workspace-offset workspace))
         (spare (workspace-spare workspace)))
@@ -222,25 +225,3 @@ cross-polytope of wrenches that the contacts can exert."
               (quality-index (workspace-gamma workspace) velocity-radius velocity-limit
                              force-radius force-limit))
         (finite-p (%candidate-quality candidate))))))
-
-;;; The steps
-
-(define-step conditions :conditions (candidate workspace)
-  (place-box workspace (%candidate-matching candidate))
-  (execute (grasp-conditions (%candidate-grasp candidate)) (workspace-registers workspace)))
-
-(define-step offset :offset (candidate workspace)
-  (find-centre workspace (%candidate-grasp candidate)))
-
-(define-step fingers :fingers (candidate workspace)
-  (fingers-on-faces-p workspace (%candidate-grasp candidate)))
-
-(define-step closure :open (candidate workspace)
-  (compute-capacities workspace (%candidate-grasp candidate) (%candidate-matching candidate)))
-
-(define-step lifting :lifting (candidate workspace)
-  (turn-centre workspace (%candidate-matching candidate) candidate)
-  (bears-load-p workspace))
-
-(define-step quality :open (candidate workspace)
-  (rate workspace candidate))
