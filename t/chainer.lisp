@@ -157,11 +157,10 @@ Returns what the rules said, a list of strings, and the stop."
     (is (equal '("GRASP" "IT") (supergrip-chainer:stop-words stop)))
     (is (equal "A" (supergrip-chainer:rule-name (supergrip-chainer:stop-rule stop))))))
 
-(supergrip-chainer:define-action :shout (action rulebase)
-  (setf (supergrip-chainer:action-function action)
-        (lambda (memory binding)
-          (declare (ignore memory binding))
-          (supergrip-chainer:make-stop :verdict :shouted))))
+(supergrip-chainer:define-action :shout (action client)
+  (supergrip-chainer:finish-action action (lambda (memory rule binding)
+                                            (declare (ignore memory rule binding))
+                                            (supergrip-chainer:make-stop :verdict :shouted))))
 
 ;; The reports of other tests list the verbs that ship.
 (setf supergrip-chainer::*action-verbs* (remove "SHOUT" (supergrip-chainer:action-verbs)
@@ -169,14 +168,14 @@ Returns what the rules said, a list of strings, and the stop."
 
 (defvar *asked* '() "What the action ASK was told.")
 
-(supergrip-chainer:define-action :ask (action rulebase)
+(supergrip-chainer:define-action :ask (action client)
   ;; Asks for the bindings of the rule while it runs, and notes how often it is called.
-  (let ((rule supergrip-chainer:*rule*))
-    (setf (supergrip-chainer:action-function action)
-          (lambda (memory binding)
-            (declare (ignore binding))
-            (push (length (supergrip-chainer:rule-bindings rule memory)) *asked*)
-            nil))))
+  (supergrip-chainer:finish-action
+   action
+   (lambda (memory rule binding)
+     (declare (ignore binding))
+     (push (length (supergrip-chainer:rule-bindings rule memory)) *asked*)
+     nil)))
 
 (setf supergrip-chainer::*action-verbs* (remove "ASK" (supergrip-chainer:action-verbs)
                                                 :test #'string=))

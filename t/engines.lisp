@@ -92,7 +92,11 @@
 
 (defun exchanging-rules (knowledge)
   "Return those rules of KNOWLEDGE that have interchangeable variables."
-  (remove-if-not #'supergrip-chainer::interchangeable-pairs (supergrip:knowledge-rules knowledge)))
+  (remove-if-not (lambda (rule)
+                   (supergrip-chainer::interchangeable-pairs
+                    (supergrip-chainer:rule-clauses rule) (supergrip-chainer:rule-actions rule)
+                    (length (supergrip-chainer:rule-variables rule))))
+                 (supergrip:knowledge-rules knowledge)))
 
 (defun random-rules (state)
   "Return the forms of a random rule base."

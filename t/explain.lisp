@@ -191,7 +191,7 @@
           (dolist (binding (supergrip-chainer:rule-bindings rule memory))
             (dolist (action (supergrip-chainer:rule-actions rule))
               (when (supergrip-chainer:action-predicate action)
-                (funcall (supergrip-chainer:action-function action) memory binding)))))
+                (funcall (supergrip-chainer:action-function action) memory rule binding)))))
         (unless (supergrip-chainer:recall memory (supergrip:derivation-predicate tree)
                                           (supergrip::derivation-face-list tree))
           (return-from how-fault (list fact "not derived from its leaves")))))))

@@ -73,6 +73,52 @@ candidates."
       (for-random-boxes (box 100 271828)
         (check (supergrip:plan box))))))
 
+;;; What is read does not change
+
+(defun structures-in (object seen)
+  "Put OBJECT, if it is a structure, and all structures in its slots, lists and vectors into the table
+SEEN.  Return it."
+  (typecase object
+    (structure-object
+     (unless (gethash object seen)
+       (setf (gethash object seen) t)
+       (dolist (slot (sb-mop:class-slots (class-of object)))
+         (structures-in (slot-value object (sb-mop:slot-definition-name slot)) seen))))
+    (cons (structures-in (car object) seen)
+     (structures-in (cdr object) seen))
+    (simple-vector (map nil (lambda (element) (structures-in element seen)) object)))
+  seen)
+
+(defun writable-slots (class-name)
+  "Return the names of those slots of the structures CLASS-NAME that SETF can set."
+  (loop for slot in (sb-kernel:dd-slots (sb-kernel:find-defstruct-description class-name))
+        unless (sb-kernel:dsd-read-only slot) collect (sb-kernel:dsd-name slot)))
+
+(test knowledge-is-read-only
+  (let ((kinds '()))
+    (loop for part in (list (supergrip::knowledge-rulebase supergrip:*knowledge*)
+                            (supergrip::knowledge-graspbase supergrip:*knowledge*)
+                            (supergrip::knowledge-inputs supergrip:*knowledge*)
+                            (supergrip:plan-box (supergrip:plan (paper-box))))
+          do (loop for structure being the hash-keys of (structures-in part (make-hash-table))
+                   unless (hash-table-p structure) ; the predicates, by their words
+                     do (pushnew (type-of structure) kinds)))
+    (is (subsetp '(supergrip-chainer:rulebase supergrip-chainer:rule supergrip-chainer::clause
+                   supergrip-chainer:action supergrip-chainer:predicate supergrip::grasp
+                   supergrip::program supergrip::node supergrip::box)
+                 kinds)
+        "~s" kinds)
+    (dolist (kind kinds)
+      (is (null (writable-slots kind)) "~a: ~a" kind (writable-slots kind)))
+    (is (equal '(supergrip::spare) (mapcar (lambda (name) (intern (string name) :supergrip))
+                                           (writable-slots 'supergrip::knowledge))))
+    (signals error
+      (eval `(setf (supergrip-chainer:rule-name
+                    ,(aref (supergrip-chainer:rulebase-rules
+                            (supergrip::knowledge-rulebase supergrip:*knowledge*))
+                           0))
+                   "X")))))
+
 ;;; Lifting
 
 (test the-axes-share-what-holds-the-weight

@@ -2,22 +2,16 @@
 
 (in-package :supergrip-chainer)
 
-(defun action-number (action)
-  "Return the place of ACTION, being compiled, in its rule."
-  (position (action-form action) (rest (fourth (rule-form *rule*))) :test #'eq))
-
-(define-action :remember (action rulebase)
+(define-action :remember (action client)
   (if (some #'negation-p (action-operands action))
       (complain (action-form action)
                 "a negation can't be remembered: what is not remembered is false")
       (multiple-value-bind (predicate terms)
           (parse-sentence (action-operands action) (action-form action) nil)
-        (when predicate
-          (setf (action-predicate action) predicate
-                (action-terms action) terms
-                (action-once action) (notany #'term-variable-p terms)
-                (action-function action)
-                (remember-function predicate terms (action-number action)))))))
+        (and predicate
+             (finish-action action (remember-function predicate terms (action-number action))
+                            :once (notany #'term-variable-p terms)
+                            :predicate predicate :terms terms)))))
 
 (defmethod action-conclusion ((verb (eql :remember)) operands)
   operands)
@@ -34,34 +28,32 @@
 (defun remember-function (predicate terms number)
   "Return the function of the action NUMBER of the rule being read, which remembers PREDICATE of
 TERMS."
-  (let ((rule *rule*)
-        (arity (predicate-arity predicate))
-        (variables (loop for place below (length (rule-variables *rule*)) collect place)))
-    (flet ((put (memory face-list binding)
+  (let ((arity (predicate-arity predicate))
+        (variables (loop for place below (length *variables*) collect place)))
+    (flet ((put (memory rule face-list binding)
              (when (put-fact memory predicate face-list)
                (log-event memory rule number binding))
              nil))
       (declare (inline put))
       (if (equal terms variables)
           ;; As often: what to remember is the binding itself.
-          (lambda (memory binding)
-            (put memory binding binding))
-          (lambda (memory binding)
+          (lambda (memory rule binding)
+            (put memory rule binding binding))
+          (lambda (memory rule binding)
             (let ((face-list (instantiate terms binding)))
               ;; A variable may have taken a face that the action names: no list of distinct
               ;; faces, and nothing to remember.
               (when (= (face-list-count face-list) arity)
-                (put memory face-list binding))))))))
+                (put memory rule face-list binding))))))))
 
-(define-action :cant (action rulebase)
+(define-action :cant (action client)
   (let ((words (action-operands action)))
     (if (or (null words) (notevery #'namep words))
         (complain (action-form action) "CANT needs words after it that say why")
-        (let ((stop (make-stop :verdict :cant :rule *rule* :words (mapcar #'symbol-name words))))
-          (setf (action-function action)
-                (lambda (memory binding)
-                  (declare (ignore memory binding))
-                  stop))))))
+        (let ((words (mapcar #'symbol-name words)))
+          (finish-action action (lambda (memory rule binding)
+                                  (declare (ignore memory binding))
+                                  (make-stop :verdict :cant :rule rule :words words)))))))
 
 (defmethod describe-action ((verb (eql :cant)) action)
   (format nil "stop: can't ~{~a~^ ~}" (action-operands action)))

@@ -5,13 +5,14 @@
 (in-package :supergrip-chainer)
 
 (defstruct action
-  "One action of a consequent.  VERB is its first word, a string, OPERANDS the rest of FORM.
-FUNCTION is called with a memory and a binding; it returns NIL, or a STOP to end the run.  ONCE is
-true if no binding after the first makes a difference.  PREDICATE and TERMS are what it remembers,
-TARGET what else it names, if anything."
-  (verb "" :type string) (operands '()) (form nil)
-  (function nil :type (or null function)) (once nil)
-  (predicate nil) (terms '() :type list) (target nil))
+  "One action of a consequent.  VERB is its first word, a string, OPERANDS the rest of FORM, NUMBER its
+place in the rule.  FUNCTION is called with a memory, the rule and a binding; it returns NIL, or a STOP
+to end the run.  ONCE is true if no binding after the first makes a difference.  PREDICATE and TERMS
+are what it remembers, TARGET what else it names, if anything."
+  (verb "" :type string :read-only t) (operands '() :read-only t) (form nil :read-only t)
+  (number 0 :type (unsigned-byte 16) :read-only t)
+  (function nil :type (or null function) :read-only t) (once nil :read-only t)
+  (predicate nil :read-only t) (terms '() :type list :read-only t) (target nil :read-only t))
 
 (defvar *action-verbs* '() "The verbs that DEFINE-ACTION has defined.")
 
@@ -19,11 +20,18 @@ TARGET what else it names, if anything."
   "Return the verbs that actions may begin with, as strings, in the order of their definition."
   *action-verbs*)
 
-(defgeneric compile-action (verb action rulebase)
-  (:documentation "Fill ACTION, the FUNCTION at least, for its VERB, a keyword; complain of what is
-wrong in it.  This is where an action is attached: DEFINE-ACTION adds a method.")
-  (:method (verb action rulebase)
-    (declare (ignore rulebase))
+(defun finish-action (action function &key once predicate terms target)
+  "Return ACTION, which was read, with its FUNCTION, and what else is known of it."
+  (make-action :verb (action-verb action) :operands (action-operands action)
+               :form (action-form action) :number (action-number action)
+               :function function :once once :predicate predicate :terms terms :target target))
+
+(defgeneric compile-action (verb action client)
+  (:documentation "Return ACTION, which begins with VERB, a keyword, finished by FINISH-ACTION, or NIL
+after complaints.  CLIENT is that of BUILD-RULEBASE.  This is where an action is attached:
+DEFINE-ACTION adds a method.")
+  (:method (verb action client)
+    (declare (ignore client))
     (complain (action-form action) "~a is not an action; actions are ~{~a~^, ~}~a" verb
               (action-verbs) (suggestion (string verb) (action-verbs)))))
 
@@ -62,12 +70,13 @@ no action has it."
 (defun adjoin-last (verb verbs)
   (if (member verb verbs :test #'string=) verbs (append verbs (list verb))))
 
-(defmacro define-action (verb (action rulebase) &body body)
-  "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, complains of what
-is wrong, and stores the ACTION-FUNCTION.  That must not keep the memory that it is called with,
-which serves other runs, too; and it may be called again when a question about the run is asked."
+(defmacro define-action (verb (action client) &body body)
+  "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, and returns what
+FINISH-ACTION makes of it, or NIL after complaints.  Its function must not keep the memory that it is
+called with, which serves other runs, too; and it may be called again when a question about the run is
+asked."
   `(progn
      (setf *action-verbs* (adjoin-last ,(symbol-name verb) *action-verbs*))
-     (defmethod compile-action ((verb (eql ,verb)) ,action ,rulebase)
-       (declare (ignorable ,rulebase))
+     (defmethod compile-action ((verb (eql ,verb)) ,action ,client)
+       (declare (ignorable ,client))
        ,@body)))

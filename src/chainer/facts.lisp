@@ -7,10 +7,10 @@
 its lists have (0 for an ordinary predicate such as OBJECT HAS FREE CORNERS), INDEX its number in
 its rule base.  GIVEN is true if the input provides it: an INPUT-DECLARATION, if a rule
 file declares it."
-  (words '() :type list)
-  (arity 0 :type (integer 0 6))
-  (index 0 :type (unsigned-byte 24))
-  (given nil))
+  (words '() :type list :read-only t)
+  (arity 0 :type (integer 0 6) :read-only t)
+  (index 0 :type (unsigned-byte 24) :read-only t)
+  (given nil :read-only t))
 
 (defmethod print-object ((predicate predicate) stream)
   (print-unreadable-object (predicate stream :type t)
@@ -24,7 +24,7 @@ file declares it."
 (defstruct input-declaration
   "That the input may say a sentence: FORM is the (INPUT ...), COMMENT the list of the lines before
 it in its file."
-  (form '() :type list) (comment '() :type list))
+  (form '() :type list :read-only t) (comment '() :type list :read-only t))
 
 (defun declared-p (predicate)
   "True if a rule file declares PREDICATE by (INPUT ...)."
@@ -49,7 +49,7 @@ number.")
 FACT-BITS).  FACTS holds the face lists in the order in which they were remembered, those of each
 predicate from +MOST-FACTS+ times its index on, and COUNTS how many it has.  USED holds the indices
 of the predicates that have facts, USED-COUNT of them.  AWAKE has a bit for each rule that may fire,
-and SLEEPERS, for each predicate, the list of the rules that its first fact wakes (see PUT-TO-SLEEP).
+and SLEEPERS, for each predicate, the list of the rules that its first fact wakes (see SLEEPING-RULES).
 BINDINGS holds the FOUND bindings of the rule being run.  LOG holds the events of a run, the newest
 first.  CLIENT is whatever the actions of the lower level need."
   (relations nil :type relations)

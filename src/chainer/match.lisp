@@ -29,10 +29,11 @@
 
 ;;; From clauses to matchers
 
-(defun compile-antecedent (rule)
-  "Return the matcher of RULE.  It leaves out some of the bindings that would do nothing."
-  (let ((*interchangeable* (interchangeable-pairs rule)))
-    (compile-clauses (rule-clauses rule) '())))
+(defun compile-antecedent (clauses actions count)
+  "Return the matcher of a rule of CLAUSES and ACTIONS, which has COUNT variables.  It leaves out some of
+the bindings that would do nothing."
+  (let ((*interchangeable* (interchangeable-pairs clauses actions count)))
+    (compile-clauses clauses '())))
 
 (declaim (inline find-bindings))
 (defun find-bindings (matcher memory)

@@ -36,7 +36,7 @@ Returns the STOP, or NIL."
              (dolist (action (rule-actions rule))
                (dolist (binding bindings)
                  (let* ((before (memory-log memory))
-                        (stop (funcall (action-function action) memory binding)))
+                        (stop (funcall (action-function action) memory rule binding)))
                    (funcall observer :action rule action binding
                             (reverse (ldiff (memory-log memory) before)))
                    (when stop

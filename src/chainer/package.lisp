@@ -22,14 +22,14 @@ one generic function.")
    #:rule-line #:rule-file #:rule-comment
    #:clause #:clause-negated #:clause-predicate #:clause-terms #:clause-form
    #:action #:action-verb #:action-form #:action-predicate #:action-terms #:action-target
-   #:action-function #:action-operands
+   #:action-function #:action-operands #:action-number
    #:rulebase #:build-rulebase #:rulebase-rules #:rulebase-predicates
-   #:find-rule #:find-predicate #:rulebase-client
+   #:find-rule #:find-predicate
    ;; actions
-   #:define-action #:compile-action #:action-verbs #:verb-key #:action-conclusion #:action-mentions
+   #:define-action #:finish-action #:compile-action #:action-verbs #:verb-key #:action-conclusion #:action-mentions
    #:symmetric-action-p #:describe-action #:sentence-text
-   #:loose-surface-p #:list-surfaces #:parse-surfaces #:parse-sentence #:negation-in
-   #:term-variable-p #:term-value #:instantiate #:*rule*
+   #:loose-surface-p #:list-surfaces #:parse-surfaces #:parse-sentence #:negation-p
+   #:term-variable-p #:term-value #:instantiate
    ;; running
    #:run-rules #:stop #:stop-verdict #:stop-rule #:stop-words #:make-stop
    #:rule-bindings #:prefix-bindings #:run-observed #:binding-text #:check-rules

@@ -19,11 +19,11 @@
 (defun parse-input (form)
   "Enter the predicate that FORM, (INPUT word... (s1 ...)), declares; or complain."
   (let* ((*subject* (input-subject form)) (*place* nil) (*form* form)
-         (*rule* (make-rule))
+         (*variables* '())
          (words (mapcar #'symbol-name (input-words form)))
          (surfaces (find-if #'consp (rest form)))
-         (known (find-predicate *rulebase* words)))
-    (cond ((negation-in (input-words form))
+         (known (gethash (words-text words) *predicates*)))
+    (cond ((some #'negation-p (input-words form))
            (complain form "a negation can't be declared: what the input does not say is false"))
           ((and known (declared-p known))
            (complain form "~a declares it already"
@@ -34,9 +34,6 @@
           ((find-if #'face-index (remove-if-not #'namep surfaces))
            (complain form "a declaration holds for all surfaces: ~a"
                      (input-line (words-text words) (length surfaces))))
-          (t
-           (let ((predicate (parse-sentence (rest form) form t)))
-             (when predicate
-               (setf (predicate-given predicate)
-                     (make-input-declaration
-                      :form form :comment (and *comments* (gethash form *comments*))))))))))
+          (t (parse-sentence (rest form) form t
+                             (make-input-declaration
+                              :form form :comment (and *comments* (gethash form *comments*))))))))

@@ -1,34 +1,36 @@
-;;;; read-rules.lisp -- a rule is read from its form, and checked.
+;;;; read-rules.lisp -- what a rule is; its clauses and actions are read, and checked.
 
 (in-package :supergrip-chainer)
 
 (defstruct clause
   "One clause of an antecedent.  TERMS are variables and faces (see TERM-VALUE)."
-  (negated nil) (predicate nil) (terms '() :type list) (form nil))
+  (negated nil :read-only t) (predicate nil :read-only t) (terms '() :type list :read-only t)
+  (form nil :read-only t))
 
 (defstruct rule
   "A rule.  COMMENT is the list of the lines before it in its file.  VARIABLES are the names of its
 variables; the place of one is its number."
-  (name nil) (form nil) (file nil) (line nil) (comment '()) (index 0 :type fixnum)
-  (variables '() :type list)
-  (clauses '() :type list)
-  (actions '() :type list)
-  (matcher nil :type (or null function)))
+  (name nil :read-only t) (form nil :read-only t) (file nil :read-only t) (line nil :read-only t)
+  (comment '() :read-only t)
+  (index 0 :type fixnum :read-only t)
+  (variables '() :type list :read-only t)
+  (clauses '() :type list :read-only t)
+  (actions '() :type list :read-only t)
+  (matcher nil :type function :read-only t))
 
 (defmethod print-object ((rule rule) stream)
   (print-unreadable-object (rule stream :type t)
     (plainly
       (format stream "~a" (rule-name rule)))))
 
-(defstruct (rulebase (:constructor %make-rulebase))
-  "Ordered rules and the predicates that they speak of.  AWAKE and SLEEPERS are what PUT-TO-SLEEP says.
-CLIENT is what the actions of the lower level are compiled against."
-  (rules #() :type simple-vector)
-  (predicates #() :type simple-vector)
-  (awake #* :type simple-bit-vector)
-  (sleepers #() :type simple-vector)
-  (table (make-hash-table :test #'equal))
-  (client nil))
+(defstruct (rulebase (:constructor %make-rulebase (rules predicates awake sleepers table)))
+  "Ordered rules and the predicates that they speak of, in a vector and in a table by their words.
+AWAKE and SLEEPERS are what SLEEPING-RULES returns."
+  (rules #() :type simple-vector :read-only t)
+  (predicates #() :type simple-vector :read-only t)
+  (awake #* :type simple-bit-vector :read-only t)
+  (sleepers #() :type simple-vector :read-only t)
+  (table nil :type hash-table :read-only t))
 
 (defmethod print-object ((rulebase rulebase) stream)
   (print-unreadable-object (rulebase stream :type t)
@@ -77,10 +79,13 @@ elements would be."
 
 ;;; Sentences
 
-(defvar *rulebase*)
-(setf (documentation '*rulebase* 'variable) "The rule base being built.")
-(defvar *rule*)
-(setf (documentation '*rule* 'variable) "The rule being read.")
+(defvar *predicates*)
+(setf (documentation '*predicates* 'variable)
+      "The predicates of the rule base being read: a table by their words (see WORDS-TEXT).")
+(defvar *client*)
+(setf (documentation '*client* 'variable) "What the actions being read are compiled against.")
+(defvar *variables*)
+(setf (documentation '*variables* 'variable) "The names of the variables of the rule being read.")
 
 (defvar *clause-failed* nil "True if a clause of the rule being read is wrong.")
 
@@ -91,15 +96,14 @@ elements would be."
 
 (defun intern-variable (name bind form)
   "Return the number of the variable NAME; new ones are allowed if BIND is true."
-  (or (position (symbol-name name) (rule-variables *rule*) :test #'string=)
+  (or (position (symbol-name name) *variables* :test #'string=)
       (cond ((not (or bind *clause-failed*)) ; it may stand in the clause that is wrong
              (complain form "the variable ~a occurs in no clause of IF" name))
-            ((= (length (rule-variables *rule*)) 6)
+            ((= (length *variables*) 6)
              (complain form "more than six variables: a box has six surfaces"))
             (t
-             (setf (rule-variables *rule*)
-                   (append (rule-variables *rule*) (list (symbol-name name))))
-             (1- (length (rule-variables *rule*)))))))
+             (setf *variables* (append *variables* (list (symbol-name name))))
+             (1- (length *variables*))))))
 
 (defun parse-surface (element bind form)
   "Return the term that ELEMENT of the list FORM stands for, or NIL after a complaint."
@@ -124,11 +128,11 @@ have yet are allowed if BIND is true.  Complains, and returns NIL and true, of a
 (defun intern-predicate (words arity form &key given)
   "Return the predicate of WORDS, made if it is new, with lists of ARITY surfaces."
   (let* ((key (words-text words))
-         (predicate (gethash key (rulebase-table *rulebase*))))
+         (predicate (gethash key *predicates*)))
     (cond ((null predicate)
-           (setf (gethash key (rulebase-table *rulebase*))
+           (setf (gethash key *predicates*)
                  (make-predicate :words words :arity arity :given given
-                                 :index (hash-table-count (rulebase-table *rulebase*)))))
+                                 :index (hash-table-count *predicates*))))
           ((/= arity (predicate-arity predicate))
            (complain form "~a takes ~[no list of surfaces~;1 surface~:;~:*~d surfaces~]~@[, as ~a ~
                            says~]; here it has ~[none~:;~:*~d~]"
@@ -149,13 +153,10 @@ have yet are allowed if BIND is true.  Complains, and returns NIL and true, of a
   (append (remove-if #'loose-surface-p words)
           (list (append (remove-if-not #'loose-surface-p words) list))))
 
-(defun negation-in (words)
-  "Return the first of WORDS that negates, NO or NOT, or NIL."
-  (find-if (lambda (word) (or (name= word "NO") (name= word "NOT"))) words))
-
-(defun parse-sentence (words form bind)
+(defun parse-sentence (words form bind &optional given)
   "Return the predicate and the terms of the sentence WORDS, the words of FORM that matter: names,
-the last perhaps a list of surfaces.  Returns NIL after a complaint."
+the last perhaps a list of surfaces.  GIVEN is that of a predicate made here.  Returns NIL after a
+complaint."
   (let* ((last (first (last words)))
          (list (and (consp last) last))
          (names (if list (butlast words) words)))
@@ -170,15 +171,17 @@ the last perhaps a list of surfaces.  Returns NIL after a complaint."
           (t
            (multiple-value-bind (terms bad) (if list (parse-surfaces list bind) '())
              (unless bad
-               (let ((predicate (intern-predicate (mapcar #'symbol-name names) (length terms) form)))
+               (let ((predicate (intern-predicate (mapcar #'symbol-name names) (length terms) form
+                                                  :given given)))
                  (and predicate (values predicate terms)))))))))
 
 (defun negation-p (word)
   "True if WORD, a part of a sentence, negates it, wherever it stands."
   (or (name= word "NO") (name= word "NOT")))
 
-(defun parse-clause (form)
+(defun parse-clause (form number)
   "Return the clause that FORM spells, or NIL after a complaint."
+  (declare (ignore number))
   (cond ((not (consp form))
          (complain form "~a is not a clause: a clause is a list" (form-text form)))
         ((and (name= (first form) "NOT") (consp (second form)) (name= (first (second form)) "NOT"))
@@ -210,56 +213,12 @@ the last perhaps a list of surfaces.  Returns NIL after a complaint."
 
 ;;; Actions
 
-(defun parse-action (form)
-  "Return the action that FORM spells, or NIL after a complaint."
+(defun parse-action (form number)
+  "Return the action that FORM, at the place NUMBER of its rule, spells, or NIL after a complaint."
   (if (not (and (consp form) (namep (first form))))
       (complain form "~a is not an action: an action is a list that begins with ~{~a~^, ~}"
                 (form-text form) (action-verbs))
-      (let ((action (make-action :verb (symbol-name (first form)) :operands (rest form)
-                                 :form form)))
-        (compile-action (verb-key (first form)) action *rulebase*)
-        (and (action-function action) action))))
-
-;;; Rules
-
-(defparameter *clause-limit* 500 "The most clauses that a rule may have.")
-
-(defun parse-parts (parse forms label)
-  "Return what PARSE makes of each of FORMS, the place in the reports being LABEL and a number."
-  (loop for form in forms
-        for number from 1
-        for *place* = (format nil "~a ~d" label number)
-        collect (let ((*form* (if (consp form) form *form*)))
-                  (funcall parse form))))
-
-(defun parse-rule (form)
-  "Return the rule that FORM, (RULE name (IF clause...) (THEN action...)), spells.
-NIL after a complaint."
-  (let* ((name (and (consp form) (namep (second form)) (second form)))
-         (*subject* (if name (format nil "RULE ~a" name) "RULE without a name"))
-         (*place* nil)
-         (*form* form)
-         (*rule* (make-rule :name (and name (symbol-name name)) :form form :file (form-file form)
-                            :line (form-line form)
-                            :comment (and *comments* (gethash form *comments*)))))
-    (cond ((not (part-p form "RULE"))
-           (let ((*subject* nil))
-             (complain form "~a is not a rule: a rule file holds (RULE name (IF clause...) (THEN ~
-                             action...)) and (INPUT sentence)" (form-text form))))
-          ((or (null name) (/= (length form) 4)
-               (not (part-p (third form) "IF")) (not (part-p (fourth form) "THEN")))
-           (complain form "a rule is (RULE name (IF clause...) (THEN action...))"))
-          ((null (rest (third form)))
-           (complain form "IF has no clause"))
-          ((null (rest (fourth form)))
-           (complain form "THEN has no action"))
-          ((nthcdr *clause-limit* (rest (third form)))
-           (complain form "more than ~d clauses" *clause-limit*))
-          (t
-           (setf (rule-clauses *rule*) (parse-parts #'parse-clause (rest (third form)) "clause"))
-           (let ((*clause-failed* (member nil (rule-clauses *rule*))))
-             (setf (rule-actions *rule*)
-                   (parse-parts #'parse-action (rest (fourth form)) "action")))
-           (and (notany #'null (rule-clauses *rule*))
-                (notany #'null (rule-actions *rule*))
-                *rule*)))))
+      (compile-action (verb-key (first form))
+                      (make-action :verb (symbol-name (first form)) :operands (rest form)
+                                   :form form :number number)
+                      *client*)))

@@ -5,14 +5,14 @@
 (defstruct stop
   "Why a run ended: VERDICT is :CANT, or what another action gives; RULE the rule that ended it;
 WORDS what it said, as strings."
-  verdict rule words)
+  (verdict nil :read-only t) (rule nil :read-only t) (words '() :read-only t))
 
 ;;; The log.  An event is one integer: the numbers of the rule and of the action, and the binding
 ;;; under which the action was done; so everything about it can be told later.
 
 (declaim (inline log-event))
 (defun log-event (memory rule action binding)
-  "Note in the log of MEMORY that RULE did its ACTION, a number, under BINDING."
+  "Note in the log of MEMORY that RULE did its action with the number ACTION, under BINDING."
   (declare (type memory memory) (type face-list binding) (type (unsigned-byte 16) action))
   (push (logior binding (ash action 24) (ash (the (unsigned-byte 22) (rule-index rule)) 40))
         (memory-log memory)))
@@ -76,7 +76,7 @@ none for other predicates."
               (bindings (memory-bindings memory)))
           (declare (function function))
           (dotimes (i (if (action-once action) 1 count))
-            (let ((stop (funcall function memory (aref bindings i))))
+            (let ((stop (funcall function memory rule (aref bindings i))))
               (when stop
                 (return-from run-rule stop)))))))))
 

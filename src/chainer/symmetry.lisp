@@ -15,27 +15,24 @@
   (or (member pair *interchangeable* :test #'equal)
       (member (reverse pair) *interchangeable* :test #'equal)))
 
-(defun interchangeable-pairs (rule)
-  "Return the pairs of variables whose exchange leaves RULE as it was: its clauses, and what its
-actions do.  Lists of surfaces are unordered."
-  (let ((variables (loop for place below (length (rule-variables rule)) collect place)))
-    (loop for (a . others) on variables
-          append (loop for b in others
-                       when (and (same-clauses-p rule a b)
-                                 (every (lambda (action)
-                                          (symmetric-action-p (verb-key (action-verb action))
-                                                              action a b))
-                                        (rule-actions rule)))
-                         collect (list a b)))))
+(defun interchangeable-pairs (clauses actions count)
+  "Return the pairs of COUNT variables whose exchange leaves a rule as it was: its CLAUSES, and what its
+ACTIONS do.  Lists of surfaces are unordered."
+  (loop for a below count
+        append (loop for b from (1+ a) below count
+                     when (and (same-clauses-p clauses a b)
+                               (every (lambda (action)
+                                        (symmetric-action-p (verb-key (action-verb action))
+                                                            action a b))
+                                      actions))
+                       collect (list a b))))
 
-(defun same-clauses-p (rule a b)
-  (flet ((key (clause) (list* (clause-negated clause) (clause-predicate clause)
-                              (sort (copy-list (clause-terms clause)) #'<)))
-         (exchanged (clause)
-           (let ((other (copy-clause clause)))
-             (setf (clause-terms other) (sublis (list (cons a b) (cons b a)) (clause-terms clause)))
-             other)))
-    (let ((clauses (rule-clauses rule)))
+(defun same-clauses-p (clauses a b)
+  "True if CLAUSES are the same after the variables A and B were exchanged."
+  (flet ((key (clause &optional exchange)
+           (list* (clause-negated clause) (clause-predicate clause)
+                  (sort (sublis exchange (copy-list (clause-terms clause))) #'<))))
+    (let ((exchange (list (cons a b) (cons b a))))
       (null (set-exclusive-or (mapcar #'key clauses)
-                              (mapcar (lambda (clause) (key (exchanged clause))) clauses)
+                              (loop for clause in clauses collect (key clause exchange))
                               :test #'equal)))))

@@ -62,7 +62,7 @@
           ((find-if #'loose-surface-p names)
            (refuse-fact row number form "faces go in a list of their own, at the end: ~a"
                         (value-text *notation* (list-surfaces names list))))
-          ((negation-in names)
+          ((some #'negation-p names)
            (refuse-fact row number form "what a box does not say is false, so leave it out"))
           (t
            (let ((face-list (fact-faces list row number (length words))))

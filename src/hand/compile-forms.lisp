@@ -17,8 +17,8 @@
 (defstruct program
   "A form ready to run: FUNCTION, called with the registers, puts the results into the registers
 RESULTS and returns true; NIL if they have no value, or if the form is a test that is false."
-  (function nil :type function)
-  (results nil :type register-vector))
+  (function nil :type function :read-only t)
+  (results nil :type register-vector :read-only t))
 
 (declaim (inline execute))
 (defun execute (program registers)

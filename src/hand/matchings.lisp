@@ -16,10 +16,10 @@
   "FACES holds the box face of each grasp face; AXES, six, which axis of the box frame (0 to 5, see
 AXIS-NAME) is that along, or about, each of N O A; SIGNS 1 where N, O, A points the way that its box
 axis does, -1 where it does not."
-  (index 0 :type fixnum)
-  (faces nil :type simple-vector)
-  (axes nil :type (simple-array (unsigned-byte 8) (6)))
-  (signs nil :type (simple-array double-float (3))))
+  (index 0 :type fixnum :read-only t)
+  (faces nil :type simple-vector :read-only t)
+  (axes nil :type (simple-array (unsigned-byte 8) (6)) :read-only t)
+  (signs nil :type (simple-array double-float (3)) :read-only t))
 
 (defmethod print-object ((matching matching) stream)
   (print-unreadable-object (matching stream :type t)

@@ -36,21 +36,24 @@
   "What may stand first in a form.  GIVES lists what it can give: :NUMBER, :SIX (numbers), :TEST.
 PARSE is a function of the form, its scope and what is wanted of it; it returns a node, or NIL after
 a complaint."
-  (name "" :type string) (gives '() :type list) (parse nil :type (or symbol function)))
+  (name "" :type string :read-only t) (gives '() :type list :read-only t)
+  (parse nil :type (or symbol function) :read-only t))
 
 (defstruct (arithmetic (:include operator (gives '(:number)) (parse 'parse-arithmetic)))
   "An operator on numbers.  LEAST and MOST (NIL: any) count its arguments; FIRST is the number that
 stands before a single argument, or NIL.  STEP makes its closure, from the next closure, the
 register to write and the operands to read; INNER is what the operator is called in operands, or NIL
 (see CLOSURE-ON)."
-  (least 1 :type fixnum) (most nil :type (or null fixnum)) (first nil :type (or null double-float))
-  (inner nil :type symbol) (step nil :type function))
+  (least 1 :type fixnum :read-only t) (most nil :type (or null fixnum) :read-only t)
+  (first nil :type (or null double-float) :read-only t)
+  (inner nil :type symbol :read-only t) (step nil :type function :read-only t))
 
 (defstruct (comparison (:include operator (gives '(:test)) (parse 'parse-prefix-comparison)))
   "A comparison of two numbers.  STEP makes its closure, from the closures to call next if it holds
-and if it does not, and the operands, which give the two numbers.  For texts, OPPOSITE names what holds where
-it does not, and MIRROR the comparison that says the same of the numbers exchanged, or they are NIL."
-  (step nil :type function) (opposite nil) (mirror nil))
+and if it does not, and the operands, which give the two numbers.  For texts, OPPOSITE names what
+holds where it does not, and MIRROR the comparison that says the same of the numbers exchanged, or
+they are NIL."
+  (step nil :type function :read-only t) (opposite nil :read-only t) (mirror nil :read-only t))
 
 (defmethod print-object ((operator operator) stream)
   (print-unreadable-object (operator stream :type t)

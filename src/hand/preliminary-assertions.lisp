@@ -9,7 +9,8 @@
 gripper's DIMENSION that is its threshold, or NIL; ASSERT, a function of a memory, the predicate, a
 box and the threshold that remembers all that holds; NOTE, one of a face list, a box and the
 threshold that returns why that holds, a sentence."
-  name arity dimension assert note)
+  (name "" :type string :read-only t) (arity 0 :read-only t) (dimension nil :read-only t)
+  (assert nil :type function :read-only t) (note nil :type function :read-only t))
 
 (defvar *inputs* '() "The rows that DEFINE-INPUT has defined, in the order of their definition.")
 
@@ -96,9 +97,9 @@ has the assertion."
 (defstruct (prepared-input (:constructor make-prepared-input (row predicate threshold)))
   "The ROW of a preliminary assertion with its PREDICATE in a rule base and the THRESHOLD that a
 gripper gives, 0 if none."
-  (row nil :type input-row)
-  (predicate nil :type predicate)
-  (threshold 0d0 :type double-float))
+  (row nil :type input-row :read-only t)
+  (predicate nil :type predicate :read-only t)
+  (threshold 0d0 :type double-float :read-only t))
 
 (defun prepare-inputs (rulebase graspbase)
   "Return the preliminary assertions, ready for the rules of RULEBASE and the gripper of GRASPBASE."

@@ -20,7 +20,7 @@ each kind are:
 :LIST number...
 
 A :LET computes its nodes, whether its body uses them or not."
-  kind (args '() :type list) form)
+  (kind nil :read-only t) (args '() :type list :read-only t) (form nil :read-only t))
 
 (defun node (kind form &rest args)
   (make-node :kind kind :args args :form form))

@@ -42,20 +42,20 @@ return true as the second value."
                        collect (if (name= element "?") nil (pop terms)))))))))
 
 (defun compile-try (action grasp)
-  "Make ACTION try GRASP, if its suggestion is good."
+  "Return ACTION, finished, which tries GRASP; NIL after a complaint of its suggestion."
   (multiple-value-bind (terms bad) (parse-suggestion (rest (action-operands action)) action)
     (unless bad
       (when (zerop (constant-matchings terms))
         (complain (action-form action) '(:warning "no matching has these faces in these places: N O ~
                                                    A is a proper rotation of X Y Z")))
-      (setf (action-target action) grasp
-            (action-terms action) terms
-            (action-function action)
-            (let ((set (constant-matchings terms))
-                  (grasp-faces (variable-faces terms)))
-              (lambda (memory binding)
-                (try-matchings memory grasp (suggested-matchings set grasp-faces binding))
-                nil))))))
+      (finish-action action
+                     (let ((set (constant-matchings terms))
+                           (grasp-faces (variable-faces terms)))
+                       (lambda (memory rule binding)
+                         (declare (ignore rule))
+                         (try-matchings memory grasp (suggested-matchings set grasp-faces binding))
+                         nil))
+                     :terms terms :target grasp))))
 
 (defmethod action-mentions ((verb (eql :try)) operands)
   (and (consp operands) (namep (first operands)) (list (first operands))))
@@ -71,9 +71,8 @@ return true as the second value."
                   for grasp-face across +grasp-faces+
                   unless (name= element "?") collect (format nil "~a = ~a" grasp-face element)))))
 
-(define-action :try (action rulebase)
+(define-action :try (action graspbase)
   (let* ((name (first (action-operands action)))
-         (graspbase (rulebase-client rulebase))
          (grasp (and (namep name) (find-grasp graspbase (symbol-name name)))))
     (unless grasp
       (parse-suggestion (rest (action-operands action)) action))
@@ -81,18 +80,16 @@ return true as the second value."
           ((not (namep name))
            (complain (action-form action) "TRY names a grasp, such as (TRY PINCH-3-PARALLEL)"))
           ;; A grasp with errors was already reported.
-          ((name-in name (graspbase-broken graspbase)))
+          ((name-in name (graspbase-broken graspbase)) nil)
           (t (complain (action-form action) "TRY names ~a, which is not in the database~a" name
                        (suggestion (symbol-name name)
                                    (mapcar #'grasp-name (graspbase-grasps graspbase))))))))
 
-(define-action :keep (action rulebase)
+(define-action :keep (action graspbase)
   (if (and (= (length (action-operands action)) 1) (name= (first (action-operands action)) "BEST"))
-      (let ((stop (make-stop :verdict :keep :rule *rule*)))
-        (setf (action-function action)
-              (lambda (memory binding)
-                (declare (ignore memory binding))
-                stop)))
+      (finish-action action (lambda (memory rule binding)
+                              (declare (ignore memory binding))
+                              (make-stop :verdict :keep :rule rule)))
       (complain (action-form action) "KEEP is (KEEP BEST)")))
 
 (defmethod symmetric-action-p ((verb (eql :keep)) action a b)

@@ -15,15 +15,14 @@
 
 ;;; The rule part: the shipped rules with PASS, which notes its binding in the log, for TRY
 
-(supergrip-chainer:define-action :pass (action rulebase)
-  (setf (supergrip-chainer:action-terms action)
-        (supergrip::parse-suggestion (rest (supergrip-chainer:action-operands action)) action))
-  (let ((rule supergrip-chainer:*rule*)
-        (number (supergrip-chainer::action-number action)))
-    (setf (supergrip-chainer:action-function action)
-          (lambda (memory binding)
-            (supergrip-chainer:log-event memory rule number binding)
-            nil))))
+(supergrip-chainer:define-action :pass (action client)
+  (let ((number (supergrip-chainer:action-number action)))
+    (supergrip-chainer:finish-action
+     action
+     (lambda (memory rule binding)
+       (supergrip-chainer:log-event memory rule number binding)
+       nil)
+     :terms (supergrip::parse-suggestion (rest (supergrip-chainer:action-operands action)) action))))
 
 (defmethod supergrip-chainer:symmetric-action-p ((verb (eql :pass)) action a b)
   (supergrip-chainer:symmetric-action-p :try action a b))
