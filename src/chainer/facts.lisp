@@ -12,10 +12,7 @@ file declares it."
   (index 0 :type (unsigned-byte 24) :read-only t)
   (given nil :read-only t))
 
-(defmethod print-object ((predicate predicate) stream)
-  (print-unreadable-object (predicate stream :type t)
-    (plainly
-      (format stream "~{~a~^ ~}" (predicate-words predicate)))))
+(define-printing (predicate predicate) "~{~a~^ ~}" (predicate-words predicate))
 
 (defun predicate-text (predicate)
   "Return the words of PREDICATE as one string."
@@ -64,10 +61,7 @@ first.  CLIENT is whatever the actions of the lower level need."
   (log '() :type list)
   (client nil))
 
-(defmethod print-object ((memory memory) stream)
-  (print-unreadable-object (memory stream :type t)
-    (plainly
-      (format stream "~d predicate~:p with facts" (memory-used-count memory)))))
+(define-printing (memory memory) "~d predicate~:p with facts" (memory-used-count memory))
 
 (declaim (inline fact-bits known-p))
 (defun fact-bits (arity face-list)

@@ -18,10 +18,7 @@ variables; the place of one is its number."
   (actions '() :type list :read-only t)
   (matcher nil :type function :read-only t))
 
-(defmethod print-object ((rule rule) stream)
-  (print-unreadable-object (rule stream :type t)
-    (plainly
-      (format stream "~a" (rule-name rule)))))
+(define-printing (rule rule) "~a" (rule-name rule))
 
 (defstruct (rulebase (:constructor %make-rulebase (rules predicates awake sleepers table)))
   "Ordered rules and the predicates that they speak of, in a vector and in a table by their words.
@@ -32,10 +29,7 @@ AWAKE and SLEEPERS are what SLEEPING-RULES returns."
   (sleepers #() :type simple-vector :read-only t)
   (table nil :type hash-table :read-only t))
 
-(defmethod print-object ((rulebase rulebase) stream)
-  (print-unreadable-object (rulebase stream :type t)
-    (plainly
-      (format stream "~d rules" (length (rulebase-rules rulebase))))))
+(define-printing (rulebase rulebase) "~d rules" (length (rulebase-rules rulebase)))
 
 (defun find-rule (rulebase name)
   "Return the rule of RULEBASE that has NAME, or NIL."

@@ -29,6 +29,14 @@ keyword that its code uses; any other becomes a fresh symbol, which can be colle
 never interns."
   (or (find-symbol text :keyword) (make-symbol text)))
 
+;;; Tables of rows
+
+(defun with-row (row rows name)
+  "Return ROWS, a list, with ROW in the place of the one for which the function NAME gives the same, or
+last."
+  (let ((old (find (funcall name row) rows :key name :test #'equal)))
+    (if old (substitute row old rows) (append rows (list row)))))
+
 ;;; Characters that show nothing
 
 (defparameter +invisible+

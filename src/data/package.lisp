@@ -18,14 +18,14 @@ in them.")
    #:system-failure #:system-failure-errno #:read-failure #:write-failure #:+is-directory+
    #:native-path #:native-name #:directory-p #:open-descriptor #:file-text #:room-for
    ;; text
-   #:plainly #:plain-text
+   #:plainly #:plain-text #:define-printing
    ;; conditions
    #:supergrip-error #:argument-error #:refuse-argument #:input-error #:input-error-problems
    #:syntax-error #:box-error #:knowledge-error #:knowledge-error-consequence
    #:knowledge-warning    #:knowledge-warning-problems
    #:retry
    ;; names and forms
-   #:name-text #:name= #:name-in #:namep #:part-p #:canonical #:canonical-name #:form-text #:as-double
+   #:with-row #:name-text #:name= #:name-in #:namep #:part-p #:canonical #:canonical-name #:form-text #:as-double
    #:cut-text #:visible-text #:invisible-p #:code-text
    ;; reader
    #:source #:string-source #:stream-source #:source-line #:source-column #:source-name

@@ -17,3 +17,9 @@ stays as it is."
 (defun plain-text (control &rest arguments)
   "Return what FORMAT makes of CONTROL and ARGUMENTS, whatever the printer's settings."
   (plainly (apply #'format nil control arguments)))
+
+(defmacro define-printing ((object class) control &rest arguments)
+  "Print OBJECT, of CLASS, as #<CLASS ...>, with what FORMAT makes of CONTROL and ARGUMENTS."
+  `(defmethod print-object ((,object ,class) stream)
+     (print-unreadable-object (,object stream :type t)
+       (plainly (format stream ,control ,@arguments)))))

@@ -21,9 +21,7 @@ varied, \"the weight\", NIL if none may."
 (defvar *box-keys* '() "The rows that DEFINE-BOX-KEY has defined, in order.")
 
 (defun add-box-key (row)
-  "Put ROW into the place of the one of its key, or last."
-  (let ((old (find (box-key-key row) *box-keys* :key #'box-key-key)))
-    (setf *box-keys* (if old (substitute row old *box-keys*) (append *box-keys* (list row))))))
+  (setf *box-keys* (with-row row *box-keys* #'box-key-key)))
 
 (defmacro define-box-key (key type takes example
                           &key slot optional words

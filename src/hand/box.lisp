@@ -40,7 +40,5 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z; FACTS a l
   "Return the velocities along and about X Y Z that the task needs, a list, 0 to 1."
   (coerce (%box-velocity box) 'list))
 
-(defmethod print-object ((box box) stream)
-  (print-unreadable-object (box stream :type t)
-    (plainly
-      (format stream "~@[~s ~]~{~a~^ x ~} cm" (box-name box) (mapcar #'form-text (box-size box))))))
+(define-printing (box box) "~@[~s ~]~{~a~^ x ~} cm"
+  (box-name box) (mapcar #'form-text (box-size box)))

@@ -21,10 +21,7 @@ axis does, -1 where it does not."
   (axes nil :type (simple-array (unsigned-byte 8) (6)) :read-only t)
   (signs nil :type (simple-array double-float (3)) :read-only t))
 
-(defmethod print-object ((matching matching) stream)
-  (print-unreadable-object (matching stream :type t)
-    (plainly
-      (format stream "~{~a~^ ~}" (matching-names matching)))))
+(define-printing (matching matching) "~{~a~^ ~}" (matching-names matching))
 
 (defun permutation-sign (axes)
   "Return 1 if the three AXES are an even permutation of 0 1 2, else -1."

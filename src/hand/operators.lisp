@@ -55,9 +55,7 @@ holds where it does not, and MIRROR the comparison that says the same of the num
 they are NIL."
   (step nil :type function :read-only t) (opposite nil :read-only t) (mirror nil :read-only t))
 
-(defmethod print-object ((operator operator) stream)
-  (print-unreadable-object (operator stream :type t)
-    (write-string (operator-name operator) stream)))
+(define-printing (operator operator) "~a" (operator-name operator))
 
 (defun find-operator (name)
   "Return the operator that NAME, a string, names, or NIL."
@@ -68,12 +66,7 @@ they are NIL."
     (find-if #'named-p *operators*)))
 
 (defun add-operator (operator)
-  "Put OPERATOR into the table, in the place of one of its name or at the end."
-  (let ((place (position (find-operator (operator-name operator)) *operators*)))
-    (setf *operators* (append (subseq *operators* 0 place)
-                              (list operator)
-                              (and place (nthcdr (1+ place) *operators*))))
-    operator))
+  (setf *operators* (with-row operator *operators* #'operator-name)))
 
 (defmacro with-closure-names (names &body body)
   "Run BODY with NAMES bound to fresh symbols, which no form of a row can mean."

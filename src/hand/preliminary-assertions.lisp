@@ -15,9 +15,7 @@ threshold that returns why that holds, a sentence."
 (defvar *inputs* '() "The rows that DEFINE-INPUT has defined, in the order of their definition.")
 
 (defun add-input (row)
-  "Put ROW into the place of the one of its name, or last."
-  (let ((old (find (input-row-name row) *inputs* :key #'input-row-name :test #'string=)))
-    (setf *inputs* (if old (substitute row old *inputs*) (append *inputs* (list row))))))
+  (setf *inputs* (with-row row *inputs* #'input-row-name)))
 
 (defun input-predicates ()
   "Return the predicates of all preliminary assertions, as BUILD-RULEBASE wants them."

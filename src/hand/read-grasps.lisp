@@ -46,10 +46,7 @@ start from."
   (broken '() :type list :read-only t)  ; names of grasps that were left out
   (registers (make-array +inputs-end+ :element-type 'double-float) :type registers :read-only t))
 
-(defmethod print-object ((graspbase graspbase) stream)
-  (print-unreadable-object (graspbase stream :type t)
-    (plainly
-      (format stream "~d grasps" (length (graspbase-grasps graspbase))))))
+(define-printing (graspbase graspbase) "~d grasps" (length (graspbase-grasps graspbase)))
 
 (defun find-grasp (graspbase name)
   "Return the grasp of GRASPBASE that has NAME, or NIL."

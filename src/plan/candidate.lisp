@@ -111,19 +111,22 @@ positions in cm, the normals point inward."
                     (* (if (evenp grasp-face) 0.5d0 -0.5d0) (aref (workspace-lengths workspace) i))
                     (+ (aref (workspace-centre workspace) i) (pop rest)))))))))
 
+(defun replayed-six (capacities candidate plan)
+  "Return what CAPACITIES, a function of a workspace, gives for CANDIDATE of PLAN, a list; NIL where it
+failed before they were known."
+  (and (member (candidate-outcome candidate) '(:possible :lifting))
+       (with-replay (workspace candidate plan)
+         (coerce (funcall capacities workspace) 'list))))
+
 (defun candidate-wrench (candidate &optional (plan *plan*))
   "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, gravity's load not taken off:
 six numbers, forces in finger forces, torques in finger force x cm.  NIL where it failed before."
-  (and (member (candidate-outcome candidate) '(:possible :lifting))
-       (with-replay (workspace candidate plan)
-         (coerce (workspace-wrench workspace) 'list))))
+  (replayed-six #'workspace-wrench candidate plan))
 
 (defun candidate-twist (candidate &optional (plan *plan*))
   "Return the mobility of CANDIDATE of PLAN along X Y Z and about X Y Z, six numbers.
 NIL where it failed before."
-  (and (member (candidate-outcome candidate) '(:possible :lifting))
-       (with-replay (workspace candidate plan)
-         (coerce (workspace-twist workspace) 'list))))
+  (replayed-six #'workspace-twist candidate plan))
 
 (defun candidate-palm (candidate)
   "Return the name of the box face that the palm of CANDIDATE is over."
@@ -133,8 +136,8 @@ NIL where it failed before."
 (defun six-at-centre (function given candidate)
   "Return the list of six that FUNCTION, of what is GIVEN at the box centre, an offset and a result,
 makes of it at the grasp centre of CANDIDATE."
-  (let ((offset (map '(simple-array double-float (3)) #'abs (candidate-offset candidate)))
-        (result (make-array 6 :element-type 'double-float)))
+  (let ((offset (map 'three #'abs (candidate-offset candidate)))
+        (result (make-six)))
     (funcall function given offset result)
     (coerce result 'list)))
 

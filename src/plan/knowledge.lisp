@@ -19,11 +19,8 @@ were made of, COMPLAINTS the PROBLEMs that did not prevent it."
   "Return the PROBLEMs of KNOWLEDGE that did not prevent its use."
   (copy-list (knowledge-complaints knowledge)))
 
-(defmethod print-object ((knowledge knowledge) stream)
-  (print-unreadable-object (knowledge stream :type t)
-    (plainly
-      (format stream "~d rules, ~d grasps" (length (knowledge-rules knowledge))
-              (length (knowledge-grasps knowledge))))))
+(define-printing (knowledge knowledge) "~d rules, ~d grasps"
+  (length (knowledge-rules knowledge)) (length (knowledge-grasps knowledge)))
 
 (defun knowledge-rules (knowledge)
   "Return the rules of KNOWLEDGE, a list, in the order in which they run."

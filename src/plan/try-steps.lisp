@@ -17,13 +17,10 @@
   (force-limit -1 :type (integer -1 5)) (velocity-limit -1 :type (integer -1 5))
   (x 0d0 :type double-float) (y 0d0 :type double-float) (z 0d0 :type double-float))
 
-(defmethod print-object ((candidate candidate) stream)
-  (print-unreadable-object (candidate stream :type t)
-    (plainly
-      (format stream "~a (~{~a~^ ~}) ~:[~a~;Q=~*~,3f~]" (grasp-name (%candidate-grasp candidate))
-              (matching-names (%candidate-matching candidate))
-              (eq (%candidate-outcome candidate) :possible) (%candidate-outcome candidate)
-              (%candidate-quality candidate)))))
+(define-printing (candidate candidate) "~a (~{~a~^ ~}) ~:[~a~;Q=~*~,3f~]"
+  (grasp-name (%candidate-grasp candidate)) (matching-names (%candidate-matching candidate))
+  (eq (%candidate-outcome candidate) :possible) (%candidate-outcome candidate)
+  (%candidate-quality candidate))
 
 (defun make-six () (make-array 6 :element-type 'double-float :initial-element 0d0))
 (defun make-three () (make-array 3 :element-type 'double-float :initial-element 0d0))
@@ -43,10 +40,7 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   (load (make-six) :type six) (spare (make-six) :type six)
   (force-needs (make-six) :type six) (velocity-needs (make-six) :type six))
 
-(defmethod print-object ((workspace workspace) stream)
-  (print-unreadable-object (workspace stream :type t)
-    (plainly
-      (format stream "~@[at ~a~]" (workspace-box workspace)))))
+(define-printing (workspace workspace) "~@[at ~a~]" (workspace-box workspace))
 
 (defun make-workspace (graspbase)
   "Return a workspace with the grasps of GRASPBASE, at no box yet."
@@ -72,28 +66,26 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
 the workspace, returns true if it passes.  NAME is a symbol."
   (outcome nil :type keyword) (name nil :type symbol) (test nil :type function))
 
-(defvar *steps* #() "The steps of TRY that DEFINE-STEP has defined, in the order in which they are taken.")
-(declaim (type simple-vector *steps*))
+(defvar *steps* '() "The steps that DEFINE-STEP has defined, in the order in which they are taken.")
 
-(defun put-step (step)
-  "Put STEP into the place of the one of its name, or last."
-  (let ((old (find (try-step-name step) *steps* :key #'try-step-name)))
-    (setf *steps* (if old (substitute step old *steps*) (concatenate 'vector *steps* (list step))))))
+(defun add-try-step (step)
+  (setf *steps* (with-row step *steps* #'try-step-name)))
 
 (defmacro define-step (name outcome (candidate workspace) &body body)
   "Define the step NAME of TRY, the last one if it is new.  BODY is true if CANDIDATE passes; it leaves
 in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keyword."
-  `(put-step (make-try-step ,outcome ',name
-                            (lambda (,candidate ,workspace)
-                              (declare (type candidate ,candidate) (type workspace ,workspace)
-                                       (ignorable ,candidate ,workspace))
-                              ,@body))))
+  `(add-try-step (make-try-step ,outcome ',name
+                                (lambda (,candidate ,workspace)
+                                  (declare (type candidate ,candidate)
+                                           (type workspace ,workspace)
+                                           (ignorable ,candidate ,workspace))
+                                  ,@body))))
 
 (defun run-steps (workspace candidate)
   "Take CANDIDATE through the steps; its OUTCOME is the one it failed, or :POSSIBLE."
   (declare (type candidate candidate))
   (handler-case
-      (loop for step across *steps*
+      (loop for step of-type try-step in *steps*
             do (setf (%candidate-outcome candidate) (try-step-outcome step))
             always (funcall (try-step-test step) candidate workspace)
             finally (setf (%candidate-outcome candidate) :possible))
@@ -103,7 +95,7 @@ in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keywo
 
 (defun step-outcomes ()
   "Return what candidates may have, in the order of the steps; the last is :POSSIBLE."
-  (append (remove-duplicates (map 'list #'try-step-outcome *steps*) :from-end t) '(:possible)))
+  (append (remove-duplicates (mapcar #'try-step-outcome *steps*) :from-end t) '(:possible)))
 
 ;;; The rows
 

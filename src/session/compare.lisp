@@ -7,10 +7,7 @@
 :QUALITY; OLD and NEW are the plans."
   box what old new)
 
-(defmethod print-object ((difference difference) stream)
-  (print-unreadable-object (difference stream :type t)
-    (plainly
-      (format stream "~a" (difference-what difference)))))
+(define-printing (difference difference) "~a" (difference-what difference))
 
 (defun plan-difference (old new)
   "Return what of the plans OLD and NEW differs, or NIL."
