@@ -151,3 +151,24 @@
                    ("(OPPOSED LARGE CONSTRAINED PARALLEL OBJECT ADJACENT OBJECT CORNER OBJECT)" "4"))
                  (reverse seen))))
     (is (equal "6" (typed-value "(length possible-grasps)")))))
+
+(defun typed-in-debugger (text)
+  "Return the value of TEXT, typed in the debugger, as it prints."
+  (let ((*package* (find-package :supergrip-user)) (*print-pretty* nil))
+    (handler-bind ((warning #'muffle-warning))
+      (prin1-to-string (sb-di:eval-in-frame (sb-di:top-frame) (read-from-string text))))))
+
+(test setq-in-the-debugger-is-at-top-level
+  (with-session ()
+    (typed-in-debugger "(setq stopped-grasp '(used-surfaces (n1 n2 a2) conditions (u > 0)
+                          offset (0 0 0 0 0 0) wrench (1 1 1 1 1 1) twist (1 1 1 1 1 0.5)))")
+    (is (equal "(1 1 1 1 1 0.5)" (typed-in-debugger "(getf stopped-grasp 'twist)")))
+    (is (equal "STOPPED-GRASP" (typed-value "(first (last grasps))")))
+    (typed-in-debugger "(setq finger-length 3.5)")
+    (is (equal "3.5" (typed-in-debugger "finger-length")))
+    (let ((knowledge supergrip:*knowledge*))
+      (is (equal "(USED-SURFACES 1)"
+                 (typed-in-debugger "(let (x) (setq x '(used-surfaces 1)) x)")))
+      (typed-in-debugger "(defun set-from-a-function () (setq y '(used-surfaces 1)))")
+      (is (equal "(USED-SURFACES 1)" (typed-value "(set-from-a-function)")))
+      (is (eq knowledge supergrip:*knowledge*)))))
