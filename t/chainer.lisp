@@ -305,7 +305,7 @@ Returns what the rules said, a list of strings, and the stop."
              (warnings-of "(INPUT WET) (RULE A (IF (NOT WET)) (THEN (CANT DO)))
                            (RULE B (IF (SLIPPERY)) (THEN (REMEMBER WET)))"))
       "rules may add to what the input says")
-  (is (null (warnings-of "(INPUT NOT WET) (RULE A (IF (WET)) (THEN (CANT DO)))"))
+  (is (null (warnings-of "(INPUT NOT WET) (INPUT SMALL) (RULE A (IF (WET)) (THEN (CANT DO)))"))
       "what follows from a wrong declaration is no news"))
 
 (test all-mistakes-are-reported-and-good-rules-stay

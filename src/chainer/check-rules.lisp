@@ -142,7 +142,7 @@ not passed yet; and the NAMES of all."
   "Warn of what can't be meant in FORMS, the rules of a file in their order (see WITH-PROBLEMS).
 INPUTS are the predicates that the input always provides, as in BUILD-RULEBASE."
   (multiple-value-bind (tests conclusions) (collect-uses forms)
-    (let* ((declared (input-uses forms))
+    (let* ((declared (input-uses forms inputs))
            (provided (loop for use in declared collect (list (list (use-words use)))))
            (sources (collect-sources conclusions (append inputs provided))))
       (dolist (test tests)
@@ -152,11 +152,12 @@ INPUTS are the predicates that the input always provides, as in BUILD-RULEBASE."
       (check-unused tests conclusions sources)
       (check-untested declared tests))))
 
-(defun input-uses (forms)
-  "Return the sentences that the (INPUT ...) forms among FORMS declare."
-  (loop for form in (remove-if-not #'input-form-p forms)
+(defun input-uses (forms inputs)
+  "Return the sentences that the (INPUT ...) forms among FORMS declare, without those of INPUTS."
+  (loop with given = (loop for (words) in inputs collect (words-text words))
+        for form in (remove-if-not #'input-form-p forms)
         for use = (sentence-use (rest form) form nil (input-subject form) nil)
-        when use collect use))
+        when (and use (not (member (use-words use) given :test #'string=))) collect use))
 
 (defun check-untested (declared tests)
   "Warn of what is DECLARED, uses, and what none of TESTS tests."
