@@ -26,8 +26,11 @@
 (defun random-clause (predicates state)
   (let* ((predicate (random-element predicates state))
          (sentence (sentence-of predicate
-                                (random-surfaces (second predicate) *six-variables* state))))
-    (if (chance 35 state) (cons 'not sentence) sentence)))
+                                (random-surfaces (second predicate) *six-variables* state)))
+         (hundredths (random 100 state)))
+    (cond ((< hundredths 18) (cons 'not sentence))
+          ((< hundredths 35) (list* (first sentence) 'not (rest sentence)))
+          (t sentence))))
 
 (defun variables-in (clauses)
   (remove-if-not (lambda (variable)
