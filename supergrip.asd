@@ -7,7 +7,7 @@
   :version "0.2.0"
   :author "The SUPER-GRIP developers"
   :license "MIT"
-  :depends-on ("supergrip/chainer")
+  :depends-on ("supergrip/chainer" "supergrip/statics")
   :pathname "src/"
   :serial t
   :components ((:file "package")
@@ -143,6 +143,23 @@
                              (:file "check-rules"))))
   :in-order-to ((test-op (test-op "supergrip/chainer-test"))))
 
+(defsystem "supergrip/statics"
+  :description "What contacts can really exert: exact statics, with certificates."
+  :version "0.2.0"
+  :license "MIT"
+  :depends-on ("supergrip/chainer")
+  :pathname "src/statics/"
+  :serial t
+  :components ((:file "package")
+               (:file "contacts")
+               (:file "frame")
+               (:file "proof")
+               (:file "nearest")
+               (:file "radius")
+               (:file "sure")
+               (:file "exact"))
+  :in-order-to ((test-op (test-op "supergrip/test"))))
+
 (defsystem "supergrip/chainer-test"
   :description "The tests of the upper level, which need nothing of the lower."
   :license "MIT"
@@ -162,6 +179,7 @@
   :serial t
   :components ((:file "paper")
                (:file "statics")
+               (:file "exact")
                (:file "rules")
                (:file "properties")
                (:file "plan")

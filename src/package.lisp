@@ -11,6 +11,8 @@
 (defpackage :supergrip
   (:use :cl :supergrip-data :supergrip-chainer :supergrip-words)
   (:shadow #:assertions)
+  (:import-from :supergrip-statics #:exact-radius #:holds-p #:contact-forces #:wrench-entries
+                #:least-squeeze #:least-friction #:sure-radius)
   (:implement :supergrip :supergrip-data :supergrip-chainer)
   (:lock t)
   (:documentation "An expert system that chooses the best grasp of a three-fingered gripper on a
@@ -58,6 +60,9 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-wrench #:candidate-twist #:candidate-failure
    #:candidate-palm #:candidate-load #:candidate-force-need #:candidate-velocity-need
    #:try-grasp
+   ;; what contacts can really do
+   #:exact-radius #:holds-p #:contact-forces #:wrench-entries #:least-squeeze #:least-friction
+   #:sure-radius
    ;; conditions, from the data layer
    #:supergrip-error #:input-error #:input-error-problems #:syntax-error #:box-error
    #:knowledge-error #:knowledge-warning #:knowledge-warning-problems #:retry

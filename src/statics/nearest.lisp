@@ -1,0 +1,266 @@
+;;;; nearest.lisp -- whether fingers can exert one wrench, how, and how far they reach along one.
+;;;;
+;;;; Wolfe's method finds the wrench of a grip that is nearest to a target: the nearest mixture of at
+;;;; most seven wrenches is kept; the grip's greatest wrench towards the target joins them, and those
+;;;; that the nearest mixture does without leave.  If the target can't be reached, the way to it from
+;;;; the nearest wrench is a motion that shows it.
+
+(in-package :supergrip-statics)
+
+(defconstant +close+ 1d-9 "A target that is no farther away, in a round frame, is reached.")
+(defconstant +near+ 1d-7 "So is one that is no farther away where rounding lets it come no closer.")
+(defconstant +corners+ 8 "How many wrenches the mixture has at most.")
+
+(defstruct (finder (:copier nil) (:conc-name f-))
+  "The search for the wrench nearest to TARGET: COUNT to ROWS are the grip's in FRAME.  There are SIZE
+CORNERS, wrenches less the target, each with the motion that gave it and its SHARE; X is the mixture.
+POWER is the greatest in the motion Q, from X to the target."
+  (count 0 :type finger-count) (u 0d0 :type not-negative) (v 0d0 :type not-negative)
+  (coupled nil :type boolean) (rows nil :type doubles) (frame nil :type matrix)
+  (target (make-six) :type six)
+  (size 0 :type (integer 0 8))
+  (corners (make-doubles (* 6 +corners+)) :type doubles)
+  (motions (make-doubles (* 6 +corners+)) :type doubles)
+  (shares (make-doubles +corners+) :type doubles)
+  (wanted (make-doubles +corners+) :type doubles)
+  (basis (make-doubles (* 6 +corners+)) :type doubles)
+  (triangle (make-doubles (* +corners+ +corners+)) :type doubles)
+  (x (make-six) :type six) (q (make-six) :type six) (w (make-six) :type six)
+  (power 0d0 :type double-float))
+
+(defun rows-in-frame (grip frame)
+  (let* ((rows (grip-rows grip)) (framed (make-doubles (length rows))))
+    (loop for start from 0 below (length rows) by +row+
+          do (into-frame frame rows start framed))
+    framed))
+
+(defun find-in (grip)
+  "Return a finder for GRIP."
+  (let ((frame (round-frame grip (map 'six #'identity '(1d0 1d0 1d0 1d0 1d0 1d0)) 0)))
+    (make-finder :count (grip-count grip) :u (grip-friction grip) :v (grip-soft-friction grip)
+                 :coupled (grip-coupled grip) :rows (rows-in-frame grip frame) :frame frame)))
+
+(defmacro corner-dot (a i b j)
+  "The product of line I of A and line J of B, six numbers each."
+  `(let ((i (* 6 ,i)) (j (* 6 ,j)))
+     (declare (type (integer 0 100) i j))
+     (+ ,@(loop for k below 6 collect `(* (aref ,a (+ i ,k)) (aref ,b (+ j ,k)))))))
+
+(defun straighten (f j)
+  "Make the edge from corner 0 of F to corner J orthogonal to those before it, and of length 1: it is the
+sum over i of entry ij of TRIANGLE times line i of BASIS.  One that depends on them becomes 0."
+  (declare (type finder f) (type (integer 0 7) j) (optimize speed))
+  (let ((corners (f-corners f)) (basis (f-basis f)) (triangle (f-triangle f)) (start (* 6 j)))
+    (dotimes (k 6)
+      (setf (aref basis (+ start k)) (- (aref corners (+ start k)) (aref corners k))))
+    (loop for i from 1 below j
+          do (setf (aref triangle (+ (* +corners+ i) j)) 0d0))
+    (let ((before (corner-dot basis j basis j)))
+      (loop repeat 2                    ; once more, for what rounding left
+            do (loop for i of-type (integer 0 8) from 1 below j
+                     do (let ((part (corner-dot basis i basis j)))
+                          (incf (aref triangle (+ (* +corners+ i) j)) part)
+                          (dotimes (k 6)
+                            (decf (aref basis (+ start k))
+                                  (* part (aref basis (+ (* 6 i) k))))))))
+      (let* ((after (corner-dot basis j basis j))
+             (length (if (> after (* 1d-20 before)) (sqrt (the not-negative after)) 0d0)))
+        (setf (aref triangle (+ (* +corners+ j) j)) length)
+        (dotimes (k 6)
+          (setf (aref basis (+ start k))
+                (if (> length 0d0) (/ (aref basis (+ start k)) length) 0d0)))))))
+
+(defun want-shares (f)
+  "Put into WANTED the shares, of whatever sign, with which the corners of F come nearest to 0.  A corner
+that depends on those before it gets 0."
+  (declare (type finder f) (optimize speed))
+  (let ((size (f-size f)) (triangle (f-triangle f)) (wanted (f-wanted f)) (rest 1d0))
+    (declare (double-float rest))
+    (loop for j of-type (integer 0 8) from 1 below size
+          do (straighten f j))
+    (loop for j of-type (integer -1 8) from (1- size) downto 1
+          do (let ((length (aref triangle (+ (* +corners+ j) j)))
+                   (sum (- (corner-dot (f-basis f) j (f-corners f) 0))))
+               (declare (double-float sum))
+               (loop for i of-type (integer 0 8) from (1+ j) below size
+                     do (decf sum (* (aref triangle (+ (* +corners+ j) i)) (aref wanted i))))
+               (setf (aref wanted j) (if (> length 0d0) (/ sum length) 0d0))
+               (decf rest (aref wanted j))))
+    (setf (aref wanted 0) rest)))
+
+(defun drop-corner (f i)
+  "Take corner I of F away; the last one takes its place."
+  (declare (type finder f) (type (integer 0 7) i))
+  (let ((last (1- (f-size f))))
+    (setf (f-size f) last
+          (aref (f-shares f) i) (aref (f-shares f) last))
+    (dolist (lines (list (f-corners f) (f-motions f)))
+      (declare (type doubles lines))
+      (replace lines lines :start1 (* 6 i) :start2 (* 6 last) :end2 (* 6 (1+ last))))))
+
+(defun share-out (f)
+  "Give the corners of F the shares of the mixture nearest to 0, all above 0, and drop the others."
+  (declare (type finder f) (optimize speed))
+  (let ((shares (f-shares f)) (wanted (f-wanted f)))
+    (loop
+      (want-shares f)
+      ;; As far as all shares stay above 0.
+      (let ((step 1d0) (first -1))
+        (declare (double-float step) (type (integer -1 7) first))
+        (dotimes (i (f-size f))
+          (let ((want (aref wanted i)) (have (aref shares i)))
+            (when (<= want 1d-14)
+              (let ((limit (if (> have want) (/ have (- have want)) 0d0)))
+                (when (or (< first 0) (< limit step))
+                  (setf step (min step limit) first i))))))
+        (dotimes (i (f-size f))
+          (incf (aref shares i) (* step (- (aref wanted i) (aref shares i)))))
+        (when (or (< first 0) (<= (f-size f) 1))
+          (return))
+        (drop-corner f first)))))
+
+(defun mix-corners (f)
+  "Put the mixture of the corners of F into X, and the way back from it into Q.  Return its square."
+  (declare (type finder f) (optimize speed))
+  (let ((x (f-x f)) (square 0d0))
+    (declare (double-float square))
+    (dotimes (k 6 square)
+      (let ((sum 0d0))
+        (declare (double-float sum))
+        (dotimes (i (f-size f))
+          (incf sum (* (aref (f-shares f) i) (aref (f-corners f) (+ (* 6 i) k)))))
+        (setf (aref x k) sum
+              (aref (f-q f) k) (- sum))
+        (incf square (* sum sum))))))
+
+(defun support (f)
+  "Put the greatest wrench of F in the motion Q into W, and its power into POWER."
+  (declare (type finder f) (optimize speed))
+  (fill (f-w f) 0d0)
+  (setf (f-power f)
+        (add-support (f-count f) (f-rows f) (f-u f) (f-v f) (f-coupled f) (f-q f) (f-w f))))
+
+(defun add-corner (f share)
+  "Add the wrench W of F, given by the motion Q, to the corners."
+  (declare (type finder f) (double-float share) (optimize speed))
+  (let ((start (* 6 (f-size f))))
+    (dotimes (k 6)
+      (setf (aref (f-corners f) (+ start k)) (- (aref (f-w f) k) (aref (f-target f) k))
+            (aref (f-motions f) (+ start k)) (aref (f-q f) k)))
+    (setf (aref (f-shares f) (f-size f)) share)
+    (incf (f-size f))))
+
+(defun no-force (f)
+  "Let F have one corner, that of no force at all."
+  (declare (type finder f))
+  (fill (f-w f) 0d0)
+  (fill (f-q f) 0d0)
+  (setf (f-size f) 0)
+  (add-corner f 1d0))
+
+(defun aim (f multiple way)
+  "Make MULTIPLE times WAY, a wrench in the frame, the target of F.  Corners stay the same wrenches."
+  (declare (type finder f) (double-float multiple) (type six way))
+  (dotimes (k 6)
+    (let* ((new (* multiple (aref way k))) (back (- (aref (f-target f) k) new)))
+      (setf (aref (f-target f) k) new)
+      (dotimes (i (f-size f))
+        (incf (aref (f-corners f) (+ (* 6 i) k)) back)))))
+
+(defun reach-p (f sure close)
+  "True if F can exert its target, no more than CLOSE away: X is 0 then, but for rounding.  Else, as soon
+as the motion Q shows by at least SURE, 0 to below 1, of the distance that it can't, return NIL."
+  (declare (type finder f) (double-float sure close))
+  (loop repeat 300
+        do (share-out f)
+           (let ((square (mix-corners f)))
+             (declare (double-float square))
+             (when (<= square (* close close)) (return t))
+             (support f)
+             (let ((lacks (- (row-dot (f-target f) 0 (f-q f)) (f-power f))))
+               (when (and (> lacks 0d0) (>= lacks (* sure square))) (return nil))
+               ;; No wrench is nearer than X, which rounding keeps from 0.
+               (when (or (>= lacks (* (- 1d0 1d-9) square)) (= (f-size f) +corners+))
+                 (return (<= square (* +near+ +near+))))
+               (add-corner f 0d0)))
+        finally (return (<= (mix-corners f) (* +near+ +near+)))))
+
+;;; What it is for
+
+(defun grip-reach (grip wrench)
+  "True if GRIP can exert WRENCH, a six; the second value is the finder that knows it."
+  (declare (type grip grip) (type six wrench))
+  (without-float-traps
+    (let ((f (find-in grip)))
+      (into-frame (f-frame f) wrench 0 (f-target f))
+      (no-force f)
+      (values (reach-p f 0d0 +close+) f))))
+
+(defun opposite (six)
+  (declare (type six six))
+  (map 'six #'- six))
+
+(defun grip-holds-p (grip gravity)
+  "True if GRIP can hold a thing against the wrench GRAVITY, a six.  If not, the second value is a
+motion in which the fingers do less power than gravity takes."
+  (declare (type grip grip) (type six gravity))
+  (multiple-value-bind (holds finder) (grip-reach grip (opposite gravity))
+    (values holds
+            (and (not holds) (out-of-frame (f-frame finder) (f-q finder))))))
+
+(defun add-forces (f motion share forces)
+  "Add to FORCES, four numbers a finger, SHARE times what the fingers of F do in MOTION: how much they
+press, the two forces across, and the torque about the normal."
+  (declare (type finder f) (type six motion) (double-float share) (type doubles forces))
+  (let ((rows (f-rows f)))
+    (dotimes (i (f-count f))
+      (let ((start (* +finger+ i)))
+        (multiple-value-bind (power one two turn)
+            (finger-share (f-u f) (f-v f) (f-coupled f) (row-dot rows (+ start 6) motion)
+                          (row-dot rows (+ start 12) motion) (row-dot rows (+ start 18) motion))
+          (declare (double-float power one two turn))
+          (when (> (+ (row-dot rows start motion) power) 0d0)
+            (loop for number in (list 1d0 one two turn) for place from (* 4 i)
+                  do (incf (aref forces place) (* share number)))))))))
+
+(defun grip-forces (grip wrench)
+  "Return the forces of the fingers of GRIP that together exert WRENCH, a six: four numbers a finger, how
+much it presses, two forces across (see SET-FINGER), and the torque about the normal.  If there are
+none, return NIL and a motion in which the fingers do less power than WRENCH."
+  (declare (type grip grip) (type six wrench))
+  (multiple-value-bind (reached f) (grip-reach grip wrench)
+    (if reached
+        (let ((forces (make-doubles (* 4 (grip-count grip)))) (motion (make-six)))
+          (dotimes (i (f-size f) forces)
+            (replace motion (f-motions f) :start2 (* 6 i))
+            (add-forces f motion (aref (f-shares f) i) forces)))
+        (values nil (out-of-frame (f-frame f) (f-q f))))))
+
+(defun farthest (f way)
+  "Return the greatest multiple of WAY, a wrench in the frame of F, that F can exert."
+  (declare (type finder f) (type six way))
+  (let ((entry most-positive-double-float))
+    (declare (double-float entry))
+    (no-force f)
+    (replace (f-q f) way)
+    (support f)
+    ;; Each motion that shows a multiple to be too great says how great it can be at most.
+    (loop repeat 200
+          do (let ((most (/ (f-power f) (row-dot way 0 (f-q f)))))
+               (declare (double-float most))
+               (when (<= most +close+) (return 0d0))
+               (when (>= most (* entry (- 1d0 1d-12))) (return entry))
+               (setf entry most)
+               (aim f entry way)
+               (when (reach-p f 0.5d0 +near+) (return entry)))
+          finally (return entry))))
+
+(defun grip-entry (grip direction &optional finder)
+  "Return the greatest multiple of the wrench DIRECTION, a six, that GRIP can exert, a double: with a unit
+wrench along an axis, its exact WRENCH entry one way.  FINDER, from FIND-IN, may be used again for the
+same grip."
+  (declare (type grip grip) (type six direction))
+  (without-float-traps
+    (let ((f (or finder (find-in grip))) (way (make-six)))
+      (into-frame (f-frame f) direction 0 way)
+      (farthest f way))))
