@@ -148,16 +148,18 @@
   :version "0.2.0"
   :license "MIT"
   :depends-on ("supergrip/chainer")
-  :pathname "src/statics/"
+  :pathname "src/"
   :serial t
-  :components ((:file "package")
-               (:file "contacts")
-               (:file "frame")
-               (:file "proof")
-               (:file "nearest")
-               (:file "radius")
-               (:file "sure")
-               (:file "exact"))
+  :components ((:module "statics"
+                :serial t
+                :components ((:file "package")
+                             (:file "contacts")
+                             (:file "round-frame")
+                             (:file "proof")
+                             (:file "nearest-wrench")
+                             (:file "radius")
+                             (:file "sure-radius")
+                             (:file "exact-statics"))))
   :in-order-to ((test-op (test-op "supergrip/test"))))
 
 (defsystem "supergrip/chainer-test"
@@ -179,7 +181,6 @@
   :serial t
   :components ((:file "paper")
                (:file "statics")
-               (:file "exact")
                (:file "rules")
                (:file "properties")
                (:file "plan")
@@ -189,6 +190,7 @@
                (:file "try-steps")
                (:file "engines")
                (:file "forms")
+               (:file "exact-statics")
                (:file "grasp-entries")
                (:file "spoiled")
                (:file "explain")

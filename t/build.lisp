@@ -23,8 +23,9 @@
   (handler-bind ((sb-kernel:redefinition-with-defmacro #'muffle-warning)
                  (warning (lambda (warning) (push (princ-to-string warning) *warnings*))))
     (asdf:load-system "supergrip/test" :force '("supergrip" "supergrip/chainer"
-                                                "supergrip/chainer-test" "supergrip/oracle"
-                                                "supergrip/test-tools" "supergrip/test"))
+                                                "supergrip/statics" "supergrip/chainer-test"
+                                                "supergrip/oracle" "supergrip/test-tools"
+                                                "supergrip/test"))
     (asdf:load-system "supergrip/bench" :force '("supergrip/bench"))
     (asdf:load-system "supergrip/draw-test" :force '("supergrip/draw" "supergrip/draw-test"))))
 

@@ -10,7 +10,8 @@
 (defpackage :supergrip-rooms (:use :cl))
 (in-package :supergrip-rooms)
 
-(defparameter *systems* '("supergrip/chainer" "supergrip/statics" "supergrip" "supergrip/batch" "supergrip/draw"))
+(defparameter *systems*
+  '("supergrip/chainer" "supergrip/statics" "supergrip" "supergrip/batch" "supergrip/draw"))
 
 (let ((*standard-output* (make-broadcast-stream)))
   (handler-bind ((asdf/parse-defsystem:bad-system-name #'muffle-warning))

@@ -1,8 +1,8 @@
 ;;;; contacts.lisp -- fingers on a thing, and the support function of what they can exert.
 ;;;;
-;;;; Wrenches and motions are six numbers about one point, the centre: forces then torques, velocities
-;;;; then rotations.  The power of a wrench w in a motion x is w.x; the support function of a set of
-;;;; wrenches says for each motion how much power they can do at most.
+;;;; Wrenches and motions are six numbers about one point, the centre: forces then torques,
+;;;; velocities then rotations.  The power of a wrench w in a motion x is w.x; the support function
+;;;; of a set of wrenches says for each motion how much power they can do at most.
 
 (in-package :supergrip-statics)
 
@@ -21,11 +21,11 @@
 (defstruct (grip (:constructor %make-grip
                     (count friction soft-friction coupled rows places))
                  (:copier nil))
-  "COUNT soft fingers on a thing.  Each presses with a normal force of 0 to 1; its friction force is at
-most FRICTION times, its torque about the normal at most SOFT-FRICTION (a length) times the normal
-force; if COUPLED, the squares of both shares add up to 1 at most.  ROWS has four wrenches of each
-finger: its unit normal force, two unit forces across it, and a unit torque about the normal; PLACES
-its place and its normal."
+  "COUNT soft fingers on a thing.  Each presses with a normal force of 0 to 1; its friction force
+is at most FRICTION times, its torque about the normal at most SOFT-FRICTION (a length) times the
+normal force; if COUPLED, the squares of both shares add up to 1 at most.  ROWS has four wrenches
+of each finger: its unit normal force, two unit forces across it, and a unit torque about the
+normal; PLACES its place and its normal."
   (count 0 :type finger-count :read-only t)
   (friction 0d0 :type not-negative :read-only t)
   (soft-friction 0d0 :type not-negative :read-only t)
@@ -34,8 +34,8 @@ its place and its normal."
   (places nil :type doubles :read-only t))
 
 (defun make-grip (count friction soft-friction &optional coupled)
-  "Return a grip of COUNT fingers, to be placed by SET-FINGER.  FRICTION u and SOFT-FRICTION v (cm) are
-doubles not below 0."
+  "Return a grip of COUNT fingers, to be placed by SET-FINGER.  FRICTION u and SOFT-FRICTION v (cm)
+are doubles not below 0."
   (%make-grip count friction soft-friction (and coupled t) (make-doubles (* +finger+ count))
               (make-doubles (* 6 count))))
 
@@ -61,8 +61,8 @@ doubles not below 0."
       (values (/ x length) (/ y length) (/ z length)))))
 
 (defun set-finger (grip index px py pz nx ny nz)
-  "Put finger INDEX of GRIP at the place P from the centre, in cm, with the inward unit normal N: six
-doubles.  Return GRIP."
+  "Put finger INDEX of GRIP at the place P from the centre, in cm, with the inward unit normal N:
+six doubles.  Return GRIP."
   (declare (type grip grip) (type finger-count index) (double-float px py pz nx ny nz))
   (let ((rows (grip-rows grip)) (places (grip-places grip)) (start (* +finger+ index)))
     (loop for number in (list px py pz nx ny nz) for place from (* 6 index)
@@ -92,9 +92,9 @@ doubles.  Return GRIP."
 
 (declaim (inline finger-share))
 (defun finger-share (u v coupled one two turn)
-  "Return the greatest power of a finger that presses with force 1, its normal force left out, where the
-velocities across are ONE and TWO and the rotation TURN; and the two friction forces and the torque
-that do it."
+  "Return the greatest power of a finger that presses with force 1, its normal force left out,
+where the velocities across are ONE and TWO and the rotation TURN; and the two friction forces and
+the torque that do it."
   (declare (type not-negative u v) (double-float one two turn))
   (let* ((across (sqrt (the not-negative (+ (* one one) (* two two)))))
          (slip (* u across)) (twist (* v (abs turn))))
@@ -109,8 +109,8 @@ that do it."
 
 (declaim (inline add-support))
 (defun add-support (count rows u v coupled x w)
-  "Add to W the wrench of COUNT fingers with ROWS that does most power in the motion X, and return that
-power."
+  "Add to W the wrench of COUNT fingers with ROWS that does most power in the motion X, and return
+that power."
   (declare (type finger-count count) (type doubles rows) (type six x w) (type not-negative u v)
            (optimize speed))
   (let ((power 0d0))
@@ -130,8 +130,8 @@ power."
             (add-row turn rows (+ start 18) w)))))))
 
 (defun grip-power (grip x w)
-  "Return the greatest power that GRIP can do in the motion X, a six, and put the wrench that does it
-into W."
+  "Return the greatest power that GRIP can do in the motion X, a six, and put the wrench that does
+it into W."
   (declare (type grip grip) (type six x w))
   (fill w 0d0)
   (add-support (grip-count grip) (grip-rows grip) (grip-friction grip) (grip-soft-friction grip)
@@ -151,8 +151,8 @@ into W."
       (unless (= b (if (= (mod k 3) mirror) (- a) a)) (return nil)))))
 
 (defun mirrors (grip gravity)
-  "Return the set of the axes, bits 0 to 2, along which GRIP and the wrench GRAVITY are their own mirror
-images."
+  "Return the set of the axes, bits 0 to 2, along which GRIP and the wrench GRAVITY are their own
+mirror images."
   (declare (type grip grip) (type six gravity))
   (let ((set 0) (count (grip-count grip)))
     (dotimes (mirror 3 set)

@@ -1,17 +1,18 @@
 ;;;; proof.lisp -- the search for the worst motion, and the proof that there is none much worse.
 ;;;;
-;;;; A proof is about a grip in a frame.  For a motion x, SUPPLY is what the fingers can do at most, plus
-;;;; a wrench's power; DEMAND is the size of the task in x, plus another wrench's power.  UPPER is the
-;;;; least SUPPLY / DEMAND that was met.  To be proved: SUPPLY >= GOAL DEMAND for all x, GOAL a little
-;;;; below UPPER.
+;;;; A proof is about a grip in a frame.  For a motion x, SUPPLY is what the fingers can do at
+;;;; most, plus a wrench's power; DEMAND is the size of the task in x, plus another wrench's power.
+;;;;  UPPER is the least SUPPLY / DEMAND that was met.  To be proved: SUPPLY >= GOAL DEMAND for all
+;;;;  x, GOAL a little below UPPER.
 ;;;;
-;;;; The motions on the faces of the cube |x| = 1 are cut into boxes.  A wrench w that the fingers can
-;;;; exert gives SUPPLY >= w.x for all x, and w.x - GOAL DEMAND is concave.  So if it is not below 0 at
-;;;; the vertices of a box, the box is proved.  A box inherits the wrench of the one that it was cut
-;;;; from, and improves it: the motions at the vertices where it fails, weighed by how much it fails
-;;;; there, have a mean; the greatest wrench in that motion is mixed in so that the squares of what
-;;;; fails become least.  If even the greatest power in the mean is less than the mean of GOAL DEMAND,
-;;;; no wrench proves the box.  Then, or when it fails slowly, the box is cut across its longest edge.
+;;;; The motions on the faces of the cube |x| = 1 are cut into boxes.  A wrench w that the fingers
+;;;; can exert gives SUPPLY >= w.x for all x, and w.x - GOAL DEMAND is concave.  So if it is not
+;;;; below 0 at the vertices of a box, the box is proved.  A box inherits the wrench of the one
+;;;; that it was cut from, and improves it: the motions at the vertices where it fails, weighed by
+;;;; how much it fails there, have a mean; the greatest wrench in that motion is mixed in so that
+;;;; the squares of what fails become least.  If even the greatest power in the mean is less than
+;;;; the mean of GOAL DEMAND, no wrench proves the box.  Then, or when it fails slowly, the box is
+;;;; cut across its longest edge.
 ;;;;
 ;;;; With FRICTION sought, GOAL is 1, and the friction U grows instead of GOAL falling: it is kept a
 ;;;; little above LEAST, the greatest friction that a motion was found to need.
@@ -29,8 +30,9 @@
 
 (defstruct (proof (:copier nil) (:conc-name p-))
   "See above.  COUNT to ROWS are the grip's, in the frame; A makes the size of the task, SUPPLY and
-DEMAND are the two wrenches.  WORST is the motion of UPPER.  HALVES and FLAT are sets of coordinates:
-those that a mirror lets be positive, those on which nothing depends.  All else is scratch of one box."
+DEMAND are the two wrenches.  WORST is the motion of UPPER.  HALVES and FLAT are sets of
+coordinates: those that a mirror lets be positive, those on which nothing depends.  All else is
+scratch of one box."
   (count 0 :type finger-count) (u 0d0 :type not-negative) (v 0d0 :type not-negative)
   (coupled nil :type boolean) (rows nil :type doubles)
   (a nil :type six) (supply (make-six) :type six) (demand (make-six) :type six)
@@ -59,8 +61,8 @@ those that a mirror lets be positive, those on which nothing depends.  All else 
                (squares)))))
 
 (defun power-and-slope (p x u)
-  "Return how much power the fingers of P can do in the motion X with friction U, and how much it grows
-with U."
+  "Return how much power the fingers of P can do in the motion X with friction U, and how much it
+grows with U."
   (declare (type proof p) (type six x) (type not-negative u))
   (let ((power 0d0) (slope 0d0) (rows (p-rows p)) (v (p-v p)))
     (declare (double-float power slope))
@@ -101,7 +103,8 @@ with U."
   (+ (* u (+ 1d0 (p-gap p))) (p-absolute p)))
 
 (defun demand-friction (p x)
-  "Let P have the friction that the motion X needs, and a little more; if none is enough, UPPER is 0."
+  "Let P have the friction that the motion X needs, and a little more; if none is enough, UPPER is
+0."
   (declare (type proof p) (type six x))
   (let ((u (friction-for p x)))
     (cond ((null u) (setf (p-upper p) 0d0))
@@ -208,8 +211,8 @@ with U."
       (decf (aref out i) (* goal (aref sizes i))))))
 
 (defun put-mean (p)
-  "Put the mean of the vertices where the wrench of the box of P fails into X, weighed by how much it
-fails, and the mean size of the task there into MEAN-SIZE.  Return NIL if it fails nowhere."
+  "Put the mean of the vertices where the wrench of the box of P fails into X, weighed by how much
+it fails, and the mean size of the task there into MEAN-SIZE.  Return NIL if it fails nowhere."
   (declare (type proof p) (optimize speed))
   (let ((values (p-values p)) (sums (p-others p)) (sizes (p-sizes p)) (middle (p-middle p))
         (half (p-half p)) (face (p-face p)) (x (p-x p)) (sum 0d0) (size 0d0) (count 32))
@@ -236,8 +239,8 @@ fails, and the mean size of the task there into MEAN-SIZE.  Return NIL if it fai
 
 (declaim (inline best-share))
 (defun best-share (values others slack)
-  "Return the share T of OTHERS in a mixture with VALUES for which the squares of what is below SLACK are
-least: at most four steps of Newton's."
+  "Return the share T of OTHERS in a mixture with VALUES for which the squares of what is below
+SLACK are least: at most four steps of Newton's."
   (declare (type vertices values others) (double-float slack) (optimize speed))
   (let ((share 0d0))
     (declare (double-float share))
@@ -270,7 +273,7 @@ least: at most four steps of Newton's."
   (declare (type proof p) (optimize speed))
   (let* ((values (p-values p)) (others (p-others p)) (wrench (p-wrench p)) (w (p-w p))
          ;; A trifle more than needed, so that rounding does no harm.
-         (share (best-share values others (* 1d-9 (p-goal p)))))
+         (share (best-share values others (* 1d-9 (p-goal p) (aref (p-sizes p) 0)))))
     (dotimes (i 32)
       (incf (aref values i) (* share (- (aref others i) (aref values i)))))
     (dotimes (k 6)
@@ -362,8 +365,8 @@ least: at most four steps of Newton's."
         (push-box p)))))
 
 (defun prove (p budget)
-  "Prove all boxes of P, at most BUDGET of them.  True if that was done, or nothing is to be proved any
-more: UPPER or GOAL is nothing."
+  "Prove all boxes of P, at most BUDGET of them.  True if that was done, or nothing is to be proved
+any more: UPPER or GOAL is nothing."
   (declare (type proof p) (type (and fixnum (integer 0)) budget) (optimize speed))
   (setf (p-top p) 0)
   (when (plusp budget)

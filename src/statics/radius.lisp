@@ -1,4 +1,5 @@
-;;;; radius.lisp -- the exact force radius, the least squeeze and the least friction, with certificates.
+;;;; radius.lisp -- the exact force radius, the least squeeze and the least friction, with
+;;;; certificates.
 
 (in-package :supergrip-statics)
 
@@ -7,8 +8,8 @@
   (every #'zerop need))
 
 (defun start-proof (grip need gravity &rest slots)
-  "Return a proof about GRIP and the task NEED, in a frame that suits both, with SLOTS; and the frame.
-The wrenches SUPPLY and DEMAND among SLOTS are not in the frame yet; mirrors keep GRAVITY."
+  "Return a proof about GRIP and the task NEED, in a frame that suits both, with SLOTS; and the
+frame. The wrenches SUPPLY and DEMAND among SLOTS are not in the frame yet; mirrors keep GRAVITY."
   (declare (type grip grip) (type six need gravity))
   (multiple-value-bind (frame a flat halves) (round-frame grip need (mirrors grip gravity))
     (let* ((p (apply #'make-proof :count (grip-count grip) :u (grip-friction grip)
@@ -48,9 +49,9 @@ The wrenches SUPPLY and DEMAND among SLOTS are not in the frame yet; mirrors kee
       (values upper (and proved (min upper (p-goal p))) worst (p-evaluations p)))))
 
 (defun grip-radius (grip need gravity &optional (gap 0.01d0) (absolute 0.002d0) (budget 100000))
-  "Return the exact force radius of GRIP, between two numbers: see EXACT-RADIUS, whose values these are,
-WORST a six; the fourth is how often the support function was computed.  NEED, of which one is above
-0, and GRAVITY are sixes, NEED without signs."
+  "Return the exact force radius of GRIP, between two numbers: see EXACT-RADIUS, whose values these
+are, WORST a six; the fourth is how often the support function was computed.  NEED, of which one is
+above 0, and GRAVITY are sixes, NEED without signs."
   (declare (type grip grip) (type six need gravity) (type double-float gap absolute)
            (type (and fixnum (integer 0)) budget))
   (without-float-traps
@@ -62,8 +63,8 @@ WORST a six; the fourth is how often the support function was computed.  NEED, o
 
 (defun grip-squeeze (grip need gravity &optional (gap 0.01d0) (budget 100000))
   "Return the least cap on each finger's force with which GRIP does the task NEED and holds against
-GRAVITY: a cap that surely does, at most 1/(1-GAP) times one below which none does, the second value.
-Both are NIL if no cap does, the first if BUDGET boxes did not do for the proof."
+GRAVITY: a cap that surely does, at most 1/(1-GAP) times one below which none does, the second
+value. Both are NIL if no cap does, the first if BUDGET boxes did not do for the proof."
   (declare (type grip grip) (type six need gravity) (type double-float gap)
            (type (and fixnum (integer 0)) budget))
   (without-float-traps
@@ -103,8 +104,8 @@ Both are NIL if no cap does, the first if BUDGET boxes did not do for the proof.
               (grip-places grip)))
 
 (defun prove-friction (p budget)
-  "Prove P, which seeks friction, with BUDGET boxes; if that can't be done, with a wider gap, up to 64
-times as wide.  True if it was done."
+  "Prove P, which seeks friction, with BUDGET boxes; if that can't be done, with a wider gap, up to
+64 times as wide.  True if it was done."
   (declare (type proof p))
   (loop repeat 4
         do (setf (p-boxes p) 0
@@ -115,8 +116,8 @@ times as wide.  True if it was done."
 
 (defun grip-least-friction (grip need gravity &optional (gap 0.01d0) (absolute 0.002d0)
                                                 (budget 20000))
-  "Return the least friction u with which GRIP, its soft friction unchanged, does the task NEED and holds
-against GRAVITY: one that surely does, and one below which none does: see LEAST-FRICTION."
+  "Return the least friction u with which GRIP, its soft friction unchanged, does the task NEED and
+holds against GRAVITY: one that surely does, and one below which none does: see LEAST-FRICTION."
   (declare (type grip grip) (type six need gravity) (type double-float gap absolute)
            (type (and fixnum (integer 0)) budget))
   (without-float-traps

@@ -1,9 +1,10 @@
-;;;; nearest.lisp -- whether fingers can exert one wrench, how, and how far they reach along one.
+;;;; nearest-wrench.lisp -- whether fingers can exert one wrench, how, and how far they reach along
+;;;; one.
 ;;;;
-;;;; Wolfe's method finds the wrench of a grip that is nearest to a target: the nearest mixture of at
-;;;; most seven wrenches is kept; the grip's greatest wrench towards the target joins them, and those
-;;;; that the nearest mixture does without leave.  If the target can't be reached, the way to it from
-;;;; the nearest wrench is a motion that shows it.
+;;;; Wolfe's method finds the wrench of a grip that is nearest to a target: the nearest mixture of
+;;;; at most seven wrenches is kept; the grip's greatest wrench towards the target joins them, and
+;;;; those that the nearest mixture does without leave.  If the target can't be reached, the way to
+;;;; it from the nearest wrench is a motion that shows it.
 
 (in-package :supergrip-statics)
 
@@ -12,9 +13,9 @@
 (defconstant +corners+ 8 "How many wrenches the mixture has at most.")
 
 (defstruct (finder (:copier nil) (:conc-name f-))
-  "The search for the wrench nearest to TARGET: COUNT to ROWS are the grip's in FRAME.  There are SIZE
-CORNERS, wrenches less the target, each with the motion that gave it and its SHARE; X is the mixture.
-POWER is the greatest in the motion Q, from X to the target."
+  "The search for the wrench nearest to TARGET: COUNT to ROWS are the grip's in FRAME.  There are
+SIZE CORNERS, wrenches less the target, each with the motion that gave it and its SHARE; X is the
+mixture. POWER is the greatest in the motion Q, from X to the target."
   (count 0 :type finger-count) (u 0d0 :type not-negative) (v 0d0 :type not-negative)
   (coupled nil :type boolean) (rows nil :type doubles) (frame nil :type matrix)
   (target (make-six) :type six)
@@ -47,8 +48,9 @@ POWER is the greatest in the motion Q, from X to the target."
      (+ ,@(loop for k below 6 collect `(* (aref ,a (+ i ,k)) (aref ,b (+ j ,k)))))))
 
 (defun straighten (f j)
-  "Make the edge from corner 0 of F to corner J orthogonal to those before it, and of length 1: it is the
-sum over i of entry ij of TRIANGLE times line i of BASIS.  One that depends on them becomes 0."
+  "Make the edge from corner 0 of F to corner J orthogonal to those before it, and of length 1: it
+is the sum over i of entry ij of TRIANGLE times line i of BASIS.  One that depends on them becomes
+0."
   (declare (type finder f) (type (integer 0 7) j) (optimize speed))
   (let ((corners (f-corners f)) (basis (f-basis f)) (triangle (f-triangle f)) (start (* 6 j)))
     (dotimes (k 6)
@@ -71,8 +73,8 @@ sum over i of entry ij of TRIANGLE times line i of BASIS.  One that depends on t
                 (if (> length 0d0) (/ (aref basis (+ start k)) length) 0d0)))))))
 
 (defun want-shares (f)
-  "Put into WANTED the shares, of whatever sign, with which the corners of F come nearest to 0.  A corner
-that depends on those before it gets 0."
+  "Put into WANTED the shares, of whatever sign, with which the corners of F come nearest to 0.  A
+corner that depends on those before it gets 0."
   (declare (type finder f) (optimize speed))
   (let ((size (f-size f)) (triangle (f-triangle f)) (wanted (f-wanted f)) (rest 1d0))
     (declare (double-float rest))
@@ -159,7 +161,8 @@ that depends on those before it gets 0."
   (add-corner f 1d0))
 
 (defun aim (f multiple way)
-  "Make MULTIPLE times WAY, a wrench in the frame, the target of F.  Corners stay the same wrenches."
+  "Make MULTIPLE times WAY, a wrench in the frame, the target of F.  Corners stay the same
+wrenches."
   (declare (type finder f) (double-float multiple) (type six way))
   (dotimes (k 6)
     (let* ((new (* multiple (aref way k))) (back (- (aref (f-target f) k) new)))
@@ -168,8 +171,9 @@ that depends on those before it gets 0."
         (incf (aref (f-corners f) (+ (* 6 i) k)) back)))))
 
 (defun reach-p (f sure close)
-  "True if F can exert its target, no more than CLOSE away: X is 0 then, but for rounding.  Else, as soon
-as the motion Q shows by at least SURE, 0 to below 1, of the distance that it can't, return NIL."
+  "True if F can exert its target, no more than CLOSE away: X is 0 then, but for rounding.  Else,
+as soon as the motion Q shows by at least SURE, 0 to below 1, of the distance that it can't, return
+NIL."
   (declare (type finder f) (double-float sure close))
   (loop repeat 300
         do (share-out f)
@@ -209,8 +213,8 @@ motion in which the fingers do less power than gravity takes."
             (and (not holds) (out-of-frame (f-frame finder) (f-q finder))))))
 
 (defun add-forces (f motion share forces)
-  "Add to FORCES, four numbers a finger, SHARE times what the fingers of F do in MOTION: how much they
-press, the two forces across, and the torque about the normal."
+  "Add to FORCES, four numbers a finger, SHARE times what the fingers of F do in MOTION: how much
+they press, the two forces across, and the torque about the normal."
   (declare (type finder f) (type six motion) (double-float share) (type doubles forces))
   (let ((rows (f-rows f)))
     (dotimes (i (f-count f))
@@ -224,9 +228,9 @@ press, the two forces across, and the torque about the normal."
                   do (incf (aref forces place) (* share number)))))))))
 
 (defun grip-forces (grip wrench)
-  "Return the forces of the fingers of GRIP that together exert WRENCH, a six: four numbers a finger, how
-much it presses, two forces across (see SET-FINGER), and the torque about the normal.  If there are
-none, return NIL and a motion in which the fingers do less power than WRENCH."
+  "Return the forces of the fingers of GRIP that together exert WRENCH, a six: four numbers a
+finger, how much it presses, two forces across (see SET-FINGER), and the torque about the normal.
+If there are none, return NIL and a motion in which the fingers do less power than WRENCH."
   (declare (type grip grip) (type six wrench))
   (multiple-value-bind (reached f) (grip-reach grip wrench)
     (if reached
@@ -256,9 +260,9 @@ none, return NIL and a motion in which the fingers do less power than WRENCH."
           finally (return entry))))
 
 (defun grip-entry (grip direction &optional finder)
-  "Return the greatest multiple of the wrench DIRECTION, a six, that GRIP can exert, a double: with a unit
-wrench along an axis, its exact WRENCH entry one way.  FINDER, from FIND-IN, may be used again for the
-same grip."
+  "Return the greatest multiple of the wrench DIRECTION, a six, that GRIP can exert, a double: with
+a unit wrench along an axis, its exact WRENCH entry one way.  FINDER, from FIND-IN, may be used
+again for the same grip."
   (declare (type grip grip) (type six direction))
   (without-float-traps
     (let ((f (or finder (find-in grip))) (way (make-six)))

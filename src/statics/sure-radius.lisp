@@ -1,8 +1,8 @@
-;;;; sure.lisp -- a radius that the contacts surely bear, from six capacities alone.
+;;;; sure-radius.lisp -- a radius that the contacts surely bear, from six capacities alone.
 ;;;;
-;;;; Six capacities, each good both ways, span a cross-polytope of wrenches that the contacts can exert:
-;;;; those whose shares, wrench / capacity, add up to 1 at most.  The sure radius is that of the
-;;;; greatest task ellipsoid, about the weight's wrench, inside it.
+;;;; Six capacities, each good both ways, span a cross-polytope of wrenches that the contacts can
+;;;; exert: those whose shares, wrench / capacity, add up to 1 at most.  The sure radius is that of
+;;;; the greatest task ellipsoid, about the weight's wrench, inside it.
 
 (in-package :supergrip-statics)
 
@@ -22,8 +22,8 @@
           sum (/ (abs load) capacity) of-type double-float)))
 
 (defun task-shares (capacities need ox oy oz)
-  "Return the greatest sum of the shares of CAPACITIES, at the point O, that a wrench of the task NEED,
-about the origin, takes.
+  "Return the greatest sum of the shares of CAPACITIES, at the point O, that a wrench of the task
+NEED, about the origin, takes.
 Its square is, for the worst signs s, the sum of (need_k (s_k/c_k - (m x o)_k))^2 over the forces, m
 being the torques' s/c, and of (need_k / c_k)^2 over the torques.  A force's own sign is free."
   (declare (type six capacities need) (double-float ox oy oz))
@@ -41,8 +41,8 @@ being the torques' s/c, and of (need_k / c_k)^2 over the torques.  A force's own
                    sum (expt (/ (aref need k) (aref capacities k)) 2) of-type double-float)))))
 
 (defun sure (capacities need gravity ox oy oz)
-  "Return the radius of SURE-RADIUS, or NIL if nothing is needed.  CAPACITIES, NEED and GRAVITY are sixes
-without signs but GRAVITY; O, doubles, is the point of the capacities."
+  "Return the radius of SURE-RADIUS, or NIL if nothing is needed.  CAPACITIES, NEED and GRAVITY are
+sixes without signs but GRAVITY; O, doubles, is the point of the capacities."
   (declare (type six capacities need gravity) (double-float ox oy oz))
   (without-float-traps
     (cond ((every #'zerop need) nil)

@@ -1,8 +1,8 @@
-;;;; frame.lisp -- coordinates in which a proof is short: what a grip exerts is round in them.
+;;;; round-frame.lisp -- coordinates in which a proof is short: what a grip exerts is round in them.
 ;;;;
-;;;; A frame is a matrix K.  A wrench w is K w in it, a motion x is q = Kt x outside it, so power is the
-;;;; same.  Two forms become diagonal together: the second moment of the wrenches that a grip exerts
-;;;; becomes the unit matrix, the square of the task's size diag(a).
+;;;; A frame is a matrix K.  A wrench w is K w in it, a motion x is q = Kt x outside it, so power
+;;;; is the same.  Two forms become diagonal together: the second moment of the wrenches that a
+;;;; grip exerts becomes the unit matrix, the square of the task's size diag(a).
 
 (in-package :supergrip-statics)
 
@@ -14,8 +14,8 @@
 (defmacro entry (matrix i j) `(aref ,matrix (+ (* 6 ,i) ,j)))
 
 (defun reaches (grip)
-  "Return how far the wrenches of GRIP reach along each axis: the lesser of both ways, a little above 0
-at least."
+  "Return how far the wrenches of GRIP reach along each axis: the lesser of both ways, a little
+above 0 at least."
   (declare (type grip grip))
   (let ((reaches (make-six)) (x (make-six)) (w (make-six)))
     (flet ((reach (k way)
@@ -43,8 +43,8 @@ at least."
                    (try k a l b)))))))
 
 (defun moment (grip scale order apart)
-  "Return the mean of w wt for the greatest wrenches w of GRIP in 72 directions, the axes in ORDER and
-divided by SCALE.  APART is a function of two axes: true if a mirror makes their entry 0."
+  "Return the mean of w wt for the greatest wrenches w of GRIP in 72 directions, the axes in ORDER
+and divided by SCALE.  APART is a function of two axes: true if a mirror makes their entry 0."
   (declare (type grip grip) (type six scale) (type simple-vector order) (function apart)
            (optimize speed))
   (let ((moment (make-matrix)) (x (make-six)) (w (make-six)))
@@ -73,7 +73,8 @@ divided by SCALE.  APART is a function of two axes: true if a mirror makes their
       (incf (entry moment i i) part))))
 
 (defun root-inverse (m)
-  "Return the inverse of L, a lower triangle, where M, of which the lower triangle is given, is L Lt."
+  "Return the inverse of L, a lower triangle, where M, of which the lower triangle is given, is L
+Lt."
   (declare (type matrix m) (optimize speed))
   (let ((l (make-matrix)) (inverse (make-matrix)))
     (dotimes (j 6)
@@ -104,8 +105,8 @@ divided by SCALE.  APART is a function of two axes: true if a mirror makes their
             (aref m iq) (+ (* s a) (* c b))))))
 
 (defun diagonalize (m k from to)
-  "Make the part of M, symmetric, on the axes FROM below TO diagonal by turning them, and the rows of K
-with them (Jacobi).  Axes that an entry 0 keeps apart stay apart."
+  "Make the part of M, symmetric, on the axes FROM below TO diagonal by turning them, and the rows
+of K with them (Jacobi).  Axes that an entry 0 keeps apart stay apart."
   (declare (type matrix m k) (type (integer 0 6) from to) (optimize speed))
   (dotimes (sweep 12)
     (loop for p of-type (integer 0 6) from from below to do
@@ -123,8 +124,8 @@ with them (Jacobi).  Axes that an entry 0 keeps apart stay apart."
                      (turn-pair k 1 6 p q c s))))))))
 
 (defun needed-last (need)
-  "Return the axes, a vector, those that are not needed first, and how many these are.  So the size of
-the task does not depend on their coordinates."
+  "Return the axes, a vector, those that are not needed first, and how many these are.  So the size
+of the task does not depend on their coordinates."
   (let ((axes '(0 1 2 3 4 5)))
     (flet ((needed-p (k) (plusp (aref need k))))
       (values (coerce (append (remove-if #'needed-p axes) (remove-if-not #'needed-p axes))
@@ -188,9 +189,9 @@ the task does not depend on their coordinates."
     a))
 
 (defun round-frame (grip need mirrors)
-  "Return a frame K in which what GRIP exerts is round and the task NEED, six doubles not below 0, has
-the size sqrt(sum a x^2); a; the set of its axes in which no wrench of GRIP does anything and nothing
-is needed; and the set of its axes, one for each of MIRRORS, that this mirror alone flips."
+  "Return a frame K in which what GRIP exerts is round and the task NEED, six doubles not below 0,
+has the size sqrt(sum a x^2); a; the set of its axes in which no wrench of GRIP does anything and
+nothing is needed; and the set of its axes, one for each of MIRRORS, that this mirror alone flips."
   (declare (type grip grip) (type six need))
   (multiple-value-bind (order unneeded) (needed-last need)
     (flet ((apart-p (i j)
@@ -225,4 +226,5 @@ is needed; and the set of its axes, one for each of MIRRORS, that this mirror al
   (declare (type matrix k) (type six x))
   (let ((motion (make-six)))
     (dotimes (j 6 motion)
-      (setf (aref motion j) (loop for i below 6 sum (* (entry k i j) (aref x i)) of-type double-float)))))
+      (setf (aref motion j) (loop for i below 6 sum (* (entry k i j) (aref x i)) of-type
+      double-float)))))
