@@ -234,6 +234,7 @@
                              (:file "sessions")
                              (:file "neighbours")
                              (:file "growth")
+                             (:file "contacts")
                              (:file "processes")
                              (:file "report")
                              (:static-file "pencil.clp")

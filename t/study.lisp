@@ -3,6 +3,8 @@
 ;;;; sbcl --script t/study.lisp                              what docs/reconstruction.md counts
 ;;;; sbcl --script t/study.lisp cases | python3 t/cones.py   how tight bounds are, for docs/physics.md
 ;;;; sbcl --script t/study.lisp compare RULES GRASPS         what other files answer differently
+;;;; sbcl --script t/study.lisp sure                         how tight the sure radius is
+;;;; sbcl --script t/study.lisp radii | python3 t/radii.py   exact radii by other means
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
 
@@ -245,8 +247,40 @@ tries something new: again with all rules up to it, until there is none."
   (supergrip:compare-knowledge (supergrip:load-knowledge :rules rules :grasps grasps)
                                supergrip:*knowledge* (boxes-of 'random-box 10000 2026)))
 
+;;; What contacts can really do
+
+(defun print-radii (count state)
+  "Print COUNT cases for radii.py, a third of them coupled."
+  (loop for (case) in (random-candidate-cases count state)
+        for number from 0
+        for coupled = (zerop (mod number 3))
+        do (destructuring-bind (contacts u v need gravity) case
+             (multiple-value-bind (upper lower worst)
+                 (supergrip:exact-radius contacts u v need :gravity gravity :coupled coupled)
+               (let ((*read-default-float-format* 'double-float))
+                 (format t "~d~{ ~f~} ~f ~f ~d~{ ~f~}~{ ~f~} ~f ~:[nan~;~:*~f~]~{ ~f~}~%"
+                         (length contacts) (reduce #'append (reduce #'append contacts))
+                         u v (if coupled 1 0) need gravity upper lower worst))))))
+
+(defun print-sure (count state)
+  "Print how the sure radius compares with the exact one on COUNT candidates."
+  (let ((above 0) (not-certified 0) (ratios '()))
+    (loop for (case sure) in (random-candidate-cases count state)
+          do (multiple-value-bind (upper lower) (exact-radius-of case)
+               (unless lower (incf not-certified))
+               (when (> sure (+ upper 1d-9)) (incf above))
+               (when (plusp upper) (push (/ sure upper) ratios))))
+    (let ((sorted (sort (coerce ratios 'vector) #'<)))
+      (flet ((quantile (share) (aref sorted (floor (* share (1- (length sorted)))))))
+        (format t "~d candidates: the sure radius is above the exact one in ~d; sure / exact: median ~
+                   ~,2f, 10 % are below ~,2f, least ~,2f, greatest ~,3f; ~d exact ones not certified~%"
+                count above (quantile 0.5) (quantile 0.1) (quantile 0) (quantile 1)
+                not-certified)))))
+
 (destructuring-bind (&optional what . files) (rest sb-ext:*posix-argv*)
   (cond ((equal what "cases") (print-cases (sb-ext:seed-random-state 1)))
+        ((equal what "sure") (print-sure 10000 (sb-ext:seed-random-state 1)))
+        ((equal what "radii") (print-radii 300 (sb-ext:seed-random-state 1)))
         ((equal what "compare") (apply #'print-comparison files))
         (t
          (let ((everything (everything-knowledge))

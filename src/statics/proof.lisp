@@ -48,7 +48,7 @@ scratch of one box."
   (x (make-six) :type six) (w (make-six) :type six)
   (sizes (make-doubles 32) :type vertices) (values (make-doubles 32) :type vertices)
   (others (make-doubles 32) :type vertices)
-  (mean-size 0d0 :type double-float))
+  (mean-size 0d0 :type double-float) (failing 0d0 :type double-float))
 
 ;;; What a motion says
 
@@ -215,13 +215,16 @@ grows with U."
 it fails, and the mean size of the task there into MEAN-SIZE.  Return NIL if it fails nowhere."
   (declare (type proof p) (optimize speed))
   (let ((values (p-values p)) (sums (p-others p)) (sizes (p-sizes p)) (middle (p-middle p))
-        (half (p-half p)) (face (p-face p)) (x (p-x p)) (sum 0d0) (size 0d0) (count 32))
-    (declare (double-float sum size) (type (integer 0 32) count))
+        (half (p-half p)) (face (p-face p)) (x (p-x p)) (sum 0d0) (size 0d0) (squares 0d0) (count 32))
+    (declare (double-float sum size squares) (type (integer 0 32) count))
     (dotimes (i 32)
-      (let ((failing (max 0d0 (- (aref values i)))))
+      (let* ((value (aref values i))
+             (failing (* 0.5d0 (- (abs value) value))))
         (setf (aref sums i) failing)
         (incf sum failing)
+        (incf squares (* failing failing))
         (incf size (* failing (aref sizes i)))))
+    (setf (p-failing p) squares)
     (unless (> sum 0d0)
       (return-from put-mean nil))
     (setf (p-mean-size p) (/ size sum))
@@ -258,16 +261,6 @@ SLACK are least: at most four steps of Newton's."
           (when (<= (abs (- next share)) 1d-6) (return next))
           (setf share next))))))
 
-(declaim (inline failing))
-(defun failing (values)
-  "Return the sum of the squares of those of VALUES that are below 0."
-  (declare (type vertices values) (optimize speed))
-  (let ((sum 0d0))
-    (declare (double-float sum))
-    (dotimes (i 32 sum)
-      (let ((value (aref values i)))
-        (when (< value 0d0) (incf sum (* value value)))))))
-
 (defun mix (p)
   "Mix the wrench W into the one of the box of P, as is best."
   (declare (type proof p) (optimize speed))
@@ -294,11 +287,10 @@ SLACK are least: at most four steps of Newton's."
     (put-sizes p)
     (put-values p (p-wrench p) values)
     (dotimes (i +tries+ nil)
-      (let ((failing (failing values)))
-        (cond ((<= failing 0d0) (return t))
-              ((> failing (* +slow+ before)) (return nil)))
-        (setf before failing))
       (unless (put-mean p) (return t))
+      (let ((failing (p-failing p)))
+        (when (> failing (* +slow+ before)) (return nil))
+        (setf before failing))
       (note p (p-x p) (p-w p))
       (when (hopeless-p p) (return nil))
       (put-values p (p-w p) (p-others p))

@@ -98,6 +98,28 @@ a busy machine disturbs least."
     (format t "~%Memory in use after each number of boxes, MB: ~{~a~^, ~}~%"
             (remove-if-not #'numberp figures))))
 
+(defun print-radii (times)
+  "Print what the exact radius of 100 random grasps costs, the least of TIMES runs of each."
+  (let ((seconds '()) (evaluations '()) (certified 0) (unit (support-seconds)))
+    (dolist (grasp (random-grasps 100 1))
+      (multiple-value-bind (time count lower) (radius-figures grasp times)
+        (push time seconds)
+        (push count evaluations)
+        (when lower (incf certified))))
+    (flet ((print-line (name text list)
+             (let ((sorted (sort (copy-list list) #'<)))
+               (format t "| ~a |~{ ~a |~}~%" name
+                       (loop for place in '(49 89 99)
+                             collect (funcall text (nth place sorted)))))))
+      (format t "~%| exact radius, 100 random grasps, six needs, 1 % | median | 90 % | greatest |~%~
+                 | --- | --- | --- | --- |~%")
+      (print-line "time of a radius" #'time-text seconds)
+      (print-line "support functions computed" (lambda (n) (format nil "~:d" n)) evaluations)
+      (print-line "time of a radius / time of one support function" #'three-digits
+                  (mapcar (lambda (time) (float (/ time unit) 1d0)) seconds))
+      (format t "~%~d of 100 are certified; one support function takes ~a.~%" certified
+              (time-text unit)))))
+
 (defun run-benchmark (&key quick)
   "Measure all, print tables.  QUICK: short batches, for a try of the benchmark itself."
   (let ((*batches* (if quick 5 150)))
@@ -106,5 +128,6 @@ a busy machine disturbs least."
     (format t "~a, ~a~%Times are of one call; a ratio is that of minima, to the first line of ~
                its group.~%" (today) (machine))
     (print-sessions)
+    (print-radii (if quick 1 7))
     (print-processes (if quick 1 20))
     (print-growth (if quick '(1000 10000) '(1000 10000 100000 1000000)))))
