@@ -228,8 +228,8 @@ certified."
                                              (mapcar (lambda (n) (* torque n)) normal)))))
         finally (return sum)))
 
-(defun finger-fault (normal force torque u v)
-  "Return true if a finger can't exert FORCE and TORQUE."
+(defun finger-overdoes-p (normal force torque u v)
+  "True if a finger can't exert FORCE and TORQUE."
   (let* ((press (dot force normal))
          (across (norm (mapcar (lambda (f n) (- f (* press n))) force normal))))
     (not (and (<= -1d-9 press (+ 1 1d-9))
@@ -244,7 +244,7 @@ certified."
              (forces (supergrip:contact-forces contacts u v wrench)))
         (is (every (lambda (a b) (close-to a b 1d-8)) wrench (sum-of-wrenches contacts forces)))
         (is (notany (lambda (contact finger)
-                      (finger-fault (second contact) (first finger) (second finger) u v))
+                      (finger-overdoes-p (second contact) (first finger) (second finger) u v))
                     contacts forces)))))
   (multiple-value-bind (forces witness)
       (supergrip:contact-forces *two-fingers* 0.5d0 0.2d0 '(0.8d0 0 0.7d0 0 0 0))
