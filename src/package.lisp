@@ -77,7 +77,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
 
 (defpackage :supergrip-user
   (:use :cl :supergrip)
-  (:shadow #:setq #:possible-grasps #:assertions #:rules #:grasps #:gripper)
+  (:shadow #:setq #:try #:keep #:possible-grasps #:assertions #:rules #:grasps #:grasp #:gripper)
   (:export #:setq #:input)
-  (:documentation "A package to type in.  The paper's lists have symbols of their own here, which can
-be typed like variables; elsewhere these names stay free for the user's variables."))
+  (:documentation "A package to type in.  The paper's words have symbols of their own here: the lists
+can be typed like variables, and a variable of the user's may have the name of a function."))

@@ -91,7 +91,8 @@
           (3 "(loop for possible-grasps from 1 to 3 finally (return (1- possible-grasps)))")
           (1 "(flet ((rules () 1)) (rules))")
           (5 "(let ((try 1) (keep 1) (grasp 3)) (+ try keep grasp))")
-          (7 "(let ((pinch-3-parallel 7)) (setq pinch-3-parallel 7) pinch-3-parallel)"))
+          (7 "(let ((pinch-3-parallel 7)) (setq pinch-3-parallel 7) pinch-3-parallel)")
+          (6 "(progn (setq try 1 keep 2 grasp 3) (+ try keep grasp))"))
         do (is (equal value (eval-in-user text)) "~a" text))
   (dolist (word '(supergrip:possible-grasps supergrip:assertions supergrip:rules supergrip:grasps
                   supergrip:grasp supergrip:gripper supergrip:try supergrip:keep))

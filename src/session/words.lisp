@@ -87,13 +87,11 @@ them."
   (mapc #'define-word (append (mapcar #'grasp-name (knowledge-grasps *knowledge*))
                               (mapcar #'car (knowledge-gripper *knowledge*)))))
 
-(macrolet ((define-words (&rest names)
-             `(progn
-                ,@(loop for name in names
-                        for typed = (find-symbol name :supergrip-user)
-                        for ours = (find-symbol name :supergrip)
-                        collect `(setf (fdefinition ',typed) #',ours)
-                        collect `(define-word ,name)))))
-  (define-words "POSSIBLE-GRASPS" "ASSERTIONS" "RULES" "GRASPS" "GRIPPER"))
+(macrolet ((define-functions (&rest names)
+             `(setf ,@(loop for name in names
+                            collect `(fdefinition ',(find-symbol (string name) :supergrip-user))
+                            collect `#',name))))
+  (define-functions try keep possible-grasps assertions rules grasps grasp gripper))
 
+(mapc #'define-word '("POSSIBLE-GRASPS" "ASSERTIONS" "RULES" "GRASPS" "GRIPPER"))
 (define-grasp-words)
