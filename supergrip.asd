@@ -25,7 +25,8 @@
                              (:file "read-gripper")
                              (:file "read-grasps")
                              (:file "preliminary-assertions")
-                             (:file "box-facts")))
+                             (:file "box-facts")
+                             (:file "curves")))
                (:module "plan"
                 :serial t
                 :components ((:file "quality")
@@ -44,7 +45,10 @@
                              (:file "why-not-rule")
                              (:file "how")
                              (:file "why-not-grasp")
+                             (:file "candidate-curves")
+                             (:file "least-change")
                              (:file "choice")
+                             (:file "requires")
                              (:file "describe")))
                (:module "session"
                 :serial t
@@ -192,8 +196,10 @@
                (:file "forms")
                (:file "exact-statics")
                (:file "grasp-entries")
+               (:file "curves")
                (:file "spoiled")
                (:file "explain")
+               (:file "requires")
                (:file "printer-settings")
                (:file "false-conditions")
                (:file "repl")

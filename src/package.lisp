@@ -22,8 +22,8 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:box #:forward-chain #:possible-grasps #:*plan*
    #:try #:keep #:assertions #:rules #:grasps #:grasp #:gripper
    ;; asking why
-   #:how #:why-not #:explain-best #:describe-rule #:describe-grasp #:describe-input
-   #:explain-fact #:explain-why-not #:explain-choice #:write-answer
+   #:how #:why-not #:explain-best #:requires #:describe-rule #:describe-grasp #:describe-input
+   #:explain-fact #:explain-why-not #:explain-choice #:explain-requirement #:write-answer
    #:derivation #:derivation-p #:derivation-predicate #:derivation-faces #:derivation-rule
    #:derivation-binding #:derivation-parts #:derivation-note
    #:assumption #:unknown-fact #:unknown-fact-refusals
@@ -33,8 +33,11 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:not-chosen-candidates #:not-chosen-refusals #:not-chosen-outcome #:not-chosen-margin
    #:not-chosen-faces
    #:choice #:choice-sentence #:choice-force #:choice-velocity #:choice-runner-up #:choice-margin
-   #:choice-changes #:limit #:limit-axis #:limit-has #:limit-needs #:limit-radius
+   #:choice-changes #:choice-stepped #:limit #:limit-axis #:limit-has #:limit-needs #:limit-radius
    #:change #:change-words #:change-what #:change-from #:change-to #:change-box #:change-plan
+   #:change-limit #:change-size #:change-threshold
+   #:requirement #:requirement-kind #:requirement-subject #:requirement-met #:requirement-changes
+   #:requirement-faces #:requirement-facts #:requirement-stepped #:requirement-possible
    ;; watching
    #:*trace-level* #:trace-rule #:untrace-rule #:trace-grasp #:untrace-grasp
    #:break-on #:unbreak #:chain-break #:next-rule #:rule-counts

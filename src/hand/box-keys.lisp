@@ -37,7 +37,7 @@ is among the others of the box, for BOX-VALUE."
                                `(lambda (box) (getf (%box-others box) ,key))))))
 
 (define-box-key :size (:numbers 3) "three sizes in cm, above 0" (12 2 2)
-  :slot :size)
+  :slot :size :words "the size")
 (define-box-key :weight :number "one number, 0 or more, in finger forces" (0.2d0)
   :slot :weight :words "the weight")
 (define-box-key :u :number "one coefficient of friction, 0 or more" (0.8d0)

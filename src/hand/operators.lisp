@@ -43,17 +43,22 @@ a complaint."
   "An operator on numbers.  LEAST and MOST (NIL: any) count its arguments; FIRST is the number that
 stands before a single argument, or NIL.  STEP makes its closure, from the next closure, the
 register to write and the operands to read; INNER is what the operator is called in operands, or NIL
-(see CLOSURE-ON)."
+(see CLOSURE-ON).  BOUNDS puts the least and the greatest of what it gives on intervals into another,
+or is NIL: see BOUNDS-FUNCTION.  SLOPE is a form, or NIL: see DEFINE-OPERATOR.  KIND is NIL, :SYMMETRIC
+or :SELECTIVE."
   (least 1 :type fixnum :read-only t) (most nil :type (or null fixnum) :read-only t)
   (first nil :type (or null double-float) :read-only t)
-  (inner nil :type symbol :read-only t) (step nil :type function :read-only t))
+  (inner nil :type symbol :read-only t) (step nil :type function :read-only t)
+  (bounds nil :type (or null function) :read-only t) (slope nil :read-only t)
+  (kind nil :type symbol :read-only t))
 
 (defstruct (comparison (:include operator (gives '(:test)) (parse 'parse-prefix-comparison)))
-  "A comparison of two numbers.  STEP makes its closure, from the closures to call next if it holds
-and if it does not, and the operands, which give the two numbers.  For texts, OPPOSITE names what
+  "A comparison of two numbers.  TEST is a function of them.  STEP makes its closure, from the
+closures to call next if it holds and if it does not, and the operands, which give the two numbers.  For texts, OPPOSITE names what
 holds where it does not, and MIRROR the comparison that says the same of the numbers exchanged, or
 they are NIL."
-  (step nil :type function :read-only t) (opposite nil :read-only t) (mirror nil :read-only t))
+  (test nil :type function :read-only t) (step nil :type function :read-only t)
+  (opposite nil :read-only t) (mirror nil :read-only t))
 
 (define-printing (operator operator) "~a" (operator-name operator))
 
@@ -108,19 +113,67 @@ gives no finite number."
                                                                   (aref ,registers ,b))
                                                       t)))))))))))
 
+(deftype interval () "The least and the greatest of some numbers." '(simple-array double-float (2)))
+
+(defmacro do-ends ((x interval at-0) &body body)
+  "Run BODY with X each end of INTERVAL; with 0 too if AT-0 is true and 0 is within."
+  (with-closure-names (least most place)
+    `(let ((,least (aref ,interval 0)) (,most (aref ,interval 1)))
+       (dotimes (,place 3)
+         (when (case ,place
+                 (0 t)
+                 (1 (< ,least ,most))
+                 (t (and ,at-0 (< ,least 0d0 ,most))))
+           (let ((,x (case ,place (0 ,least) (1 ,most) (t 0d0))))
+             ,@body))))))
+
+(defmacro bounds-function ((x &optional y) value when monotone)
+  "Return a function of one or two intervals and a third, into which it puts the least and the
+greatest VALUE on them, and which returns whether there is one: 2 in any case, 1 perhaps, 0
+nowhere.  VALUE is monotone, so it has them at the ends.  Rounding is monotone too: the bounds are
+true of what the doubles between the ends give, rounded."
+  (with-closure-names (a b out good bad least most result)
+    (let* ((at-0 (eq monotone :but-at-0))
+           (visit `(let ((,result (and ,when ,value)))
+                     (cond ((and (typep ,result 'double-float) (finite-p ,result))
+                            (incf ,good)
+                            (when (< ,result ,least) (setf ,least ,result))
+                            (when (> ,result ,most) (setf ,most ,result)))
+                           (t (incf ,bad))))))
+      `(lambda (,a ,@(and y (list b)) ,out)
+         (declare (type interval ,a ,@(and y (list b)) ,out))
+         (let ((,good 0) (,bad 0)
+               (,least most-positive-double-float) (,most most-negative-double-float))
+           (declare (fixnum ,good ,bad) (double-float ,least ,most))
+           (do-ends (,x ,a ,at-0)
+             ,(if y `(do-ends (,y ,b ,at-0) ,visit) visit))
+           (when (plusp ,bad)
+             (setf ,least most-negative-double-float ,most most-positive-double-float))
+           (setf (aref ,out 0) ,least (aref ,out 1) ,most)
+           (cond ((zerop ,good) 0) ((zerop ,bad) 2) (t 1)))))))
+
 (defmacro define-operator (name (x &optional y) value
                            &key (counts (if y '(2 2) '(1 1))) first inner finite (when t)
-                             (parse 'parse-arithmetic))
+                             (parse 'parse-arithmetic) monotone slope kind)
   "Define NAME as an operator that gives VALUE, a form that makes a double of the doubles X and Y.
 It has no value where WHEN is false, nor where VALUE is no finite double, which is not looked at if
 it is FINITE in any case.  COUNTS are the least and the greatest count of arguments; more than two
 are taken from the left, and one alone stands for itself, or follows the number FIRST.  INNER is the
-function of +INNER-OPERATORS+ that does the same, if there is one."
+function of +INNER-OPERATORS+ that does the same, if there is one.
+
+What follows serves EXPLAIN-BEST and REQUIRES; they look only at single places where it is not
+known.  MONOTONE is true if VALUE only rises, or only falls, with each argument while the other
+stays, as far as it has a value; :BUT-AT-0 if an argument may be 0 where it turns.  SLOPE is
+VALUE's derivative, of X, Y, DX, DY and VALUE, a form of +, -, *, / and (IF (< x y) a b).  KIND is
+:SYMMETRIC if two arguments may be exchanged, :SELECTIVE if VALUE is one of them where it does not
+turn, and the order of many is all one."
   (with-closure-names (next to a b registers result)
     `(add-operator
       (make-arithmetic
        :name ,name :least ,(first counts) :most ,(second counts) :first ,first :parse ',parse
        :inner ',inner
+       :bounds ,(and monotone `(bounds-function (,x ,@(and y (list y))) ,value ,when ,monotone))
+       :slope ',slope :kind ,kind
        :step (lambda (,next ,to ,a ,@(and y (list b)))
                (declare (function ,next) (type register ,to))
                (closure-on (,registers ,(not inner) (,x ,a) ,@(and y `((,y ,b))))
@@ -137,6 +190,9 @@ are for texts: see COMPARISON."
     `(add-operator
       (make-comparison
        :name ,name :opposite ,opposite :mirror ,mirror
+       :test (lambda (,x ,y)
+               (declare (double-float ,x ,y))
+               ,test)
        :step (lambda (,then ,else ,a ,b)
                (declare (function ,then ,else))
                (closure-on (,registers t (,x ,a) (,y ,b))
@@ -144,17 +200,27 @@ are for texts: see COMPARISON."
 
 ;;; The rows
 
-(define-operator "+" (x y) (+ x y) :counts (1) :inner +)
-(define-operator "-" (x y) (- x y) :counts (1) :first 0d0 :inner -)
-(define-operator "*" (x y) (* x y) :counts (1) :inner *)
-(define-operator "/" (x y) (/ x y) :counts (1 2) :first 1d0 :when (/= y 0d0))
-(define-operator "SQRT" (x) (sqrt (the (double-float 0d0) x)) :when (>= x 0d0) :finite t)
+(define-operator "+" (x y) (+ x y) :counts (1) :inner +
+  :monotone t :slope (+ dx dy) :kind :symmetric)
+(define-operator "-" (x y) (- x y) :counts (1) :first 0d0 :inner -
+  :monotone t :slope (- dx dy))
+(define-operator "*" (x y) (* x y) :counts (1) :inner *
+  :monotone t :slope (+ (* dx y) (* x dy)) :kind :symmetric)
+(define-operator "/" (x y) (/ x y) :counts (1 2) :first 1d0 :when (/= y 0d0)
+  :monotone :but-at-0 :slope (/ (- dx (* value dy)) y))
+(define-operator "SQRT" (x) (sqrt (the (double-float 0d0) x)) :when (>= x 0d0) :finite t
+  :monotone t :slope (/ dx (* 2 value)))
 ;; A power of a negative number may be complex: then there is no value.
-(define-operator "EXPT" (x y) (expt x y) :parse parse-power)
-(define-operator "MIN" (x y) (if (< y x) y x) :counts (1) :finite t)
-(define-operator "MAX" (x y) (if (> y x) y x) :counts (1) :finite t)
-(define-operator "ABS" (x) (abs x) :finite t)
-(define-operator "POSIT" (x) (if (> x 0d0) x 0d0) :finite t)
+(define-operator "EXPT" (x y) (expt x y) :parse parse-power
+  :monotone :but-at-0)
+(define-operator "MIN" (x y) (if (< y x) y x) :counts (1) :finite t
+  :monotone t :slope (if (< y x) dy dx) :kind :selective)
+(define-operator "MAX" (x y) (if (> y x) y x) :counts (1) :finite t
+  :monotone t :slope (if (< x y) dy dx) :kind :selective)
+(define-operator "ABS" (x) (abs x) :finite t
+  :monotone :but-at-0 :slope (if (< x 0) (- 0 dx) dx) :kind :selective)
+(define-operator "POSIT" (x) (if (> x 0d0) x 0d0) :finite t
+  :monotone t :slope (if (< 0 x) dx 0) :kind :selective)
 
 (define-comparison "<" (x y) (< x y) :opposite ">=" :mirror ">")
 (define-comparison "<=" (x y) (<= x y) :opposite ">" :mirror ">=")
@@ -177,5 +243,4 @@ are for texts: see COMPARISON."
 
 (defun comparison-true-p (comparison a b)
   "True if COMPARISON holds between the doubles A and B."
-  (funcall (funcall (comparison-step comparison) (constantly t) (constantly nil) 0 1)
-           (coerce (list a b) 'registers)))
+  (funcall (comparison-test comparison) a b))

@@ -7,10 +7,11 @@
 PALM the one that the palm faces, CONTACTS a list of (GRASP-FACE P Q), P and Q being registers; PLACES
 holds the same as axes (0 to 2) and registers in turn, without the axes that the faces are normal to.
 The other parts are PROGRAMs; COMPARISONS is an alist from the comparisons in CONDITIONS-NODE to those of their operands.
+DRAFT has the nodes of all parts.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
 SAME, for each matching, the set of those that are the same grasp, itself included."
   (name "" :type string :read-only t) (index 0 :type fixnum :read-only t)
-  (definition nil :read-only t)
+  (definition nil :read-only t) (draft nil :read-only t)
   (file nil :read-only t) (line nil :read-only t) (comment '() :read-only t)
   (used '() :type list :read-only t) (palm 0 :type fixnum :read-only t)
   (conditions-node nil :read-only t) (conditions nil :type (or null program) :read-only t)
@@ -161,7 +162,9 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
 
 (defstruct draft
   "A grasp whose forms are checked and are nodes still."
-  name form file line comment used palm conditions offset contacts wrench twist)
+  (name nil :read-only t) (form nil :read-only t) (file nil :read-only t) (line nil :read-only t)
+  (comment nil :read-only t) (used nil :read-only t) (palm nil :read-only t) (conditions nil :read-only t)
+  (offset nil :read-only t) (contacts nil :read-only t) (wrench nil :read-only t) (twist nil :read-only t))
 
 (defun parse-conditions (form scope)
   "Return the node of FORM, the grasping conditions; warn if they never hold."
@@ -273,7 +276,8 @@ has one of them."
          (positions (numbers-program (loop for (nil . place) in contacts append place) layout))
          (places (coerce (program-results positions) 'list)))
     (make-grasp
-     :name (draft-name draft) :index index :definition (draft-form draft) :file (draft-file draft)
+     :name (draft-name draft) :index index :definition (draft-form draft)
+     :draft draft :file (draft-file draft)
      :line (draft-line draft) :comment (draft-comment draft)
      :used (draft-used draft) :palm (draft-palm draft)
      :conditions-node conditions

@@ -7,16 +7,11 @@
 the effect of the offset, and the RADIUS."
   axis has needs radius)
 
-(defstruct change
-  "A single value of the box that changes the choice: WHAT it is, FROM and TO, and the PLAN that
-results.  BOX is the changed box; SIZE is how far from FROM the choice changes, not rounded."
-  what from to box plan size)
-
 (defstruct (choice (:include explanation))
   "Why the best grasp of PLAN is the best.  SENTENCE says how it holds the box; FORCE and VELOCITY are
 LIMITs or NIL; RUNNER-UP is the next candidate or NIL, MARGIN its distance in Q; CHANGES is a list
-of CHANGEs, the smallest first."
-  plan sentence force velocity runner-up margin (changes '()))
+of CHANGEs, the smallest first; STEPPED are the names of values that were only looked at in steps."
+  plan sentence force velocity runner-up margin (changes '()) (stepped '()))
 
 ;;; How it holds the box
 
@@ -60,105 +55,26 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
       (limit-at (%candidate-velocity-limit candidate) (workspace-twist workspace)
                 (workspace-velocity-needs workspace) (candidate-velocity-radius candidate)))))
 
-;;; What would change the choice.  Each value of the task, the friction and the weight alone is moved
-;;; away from what it is, until the plan chooses otherwise; then the place is found by halving.
-
-(defun value-at (box row index)
-  "Return the value of the key ROW of BOX, at INDEX if that is six numbers."
-  (let ((value (box-value box (box-key-key row))))
-    (if (arrayp value) (aref value index) value)))
-
-(defun box-with-at (box row index value)
-  "Return a box as BOX with VALUE for the key ROW, at INDEX if that is six numbers."
-  (let ((six (box-value box (box-key-key row))))
-    (if (arrayp six)
-        (let ((copy (copy-seq six)))
-          (setf (aref copy index) value)
-          (box-with box row copy))
-        (box-with box row value))))
-
-(defun value-name (row index)
-  (format nil "~a~@[ ~a~]" (box-key-words row)
-          (and (eq (box-key-type row) :needs) (axis-name index))))
+;;; What would change the choice
 
 (defun same-choice-p (a b)
   "True if the plans A and B chose the same grasp in the same matching, or both none."
   (and (equal (plan-grasp a) (plan-grasp b))
        (equal (plan-matching a) (plan-matching b))))
 
-(defun needs-something-p (box)
-  (or (some #'plusp (%box-force box)) (some #'plusp (%box-velocity box))))
+(defun other-choice (plan)
+  "Return the goal that another grasp, another matching or none is chosen than in PLAN."
+  (let ((best (plan-best plan)))
+    (make-goal :test (lambda (other) (not (same-choice-p plan other)))
+               :winner (lambda (prospect)
+                         (not (if (and prospect best)
+                                  (and (eq (prospect-grasp prospect) (%candidate-grasp best))
+                                       (eq (prospect-matching prospect) (%candidate-matching best)))
+                                  (eq prospect best)))))))
 
-(defun plan-like (plan box)
-  "Return the plan for BOX, made as PLAN was."
-  (if (plan-tries plan)
-      (try-without-rules (plan-tries plan) box :knowledge (plan-knowledge plan)
-                                               :gamma (plan-gamma plan))
-      (plan box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))))
-
-(defun find-change (plan row index)
-  "Return the CHANGE of one value that is nearest to what it is, or NIL if none up to its bound does."
-  (let* ((box (plan-box plan))
-         (from (value-at box row index))
-         (most (if (eq (box-key-type row) :needs) 1d0 (max 2d0 (* 4 from))))
-         (step (/ most 50)))
-    (labels ((other-p (value)
-               (let ((new (box-with-at box row index value)))
-                 (and (<= 0 value most)
-                      (needs-something-p new)
-                      (not (same-choice-p plan (plan-like plan new))))))
-             (change (same other)
-               (multiple-value-bind (same other) (halve same other #'other-p)
-                 (let* ((to (if (at-once-p from other)
-                                (loop for value = 0.01d0 then (/ value 10)
-                                      when (other-p value) return value)
-                                (short-decimal-beyond same other from #'other-p)))
-                        (new (box-with-at box row index to)))
-                   (make-change :what (value-name row index) :from from :to to :box new
-                                :plan (plan-like plan new) :size (abs (- other from)))))))
-      (loop for k from 1 to 50
-            for up = (min most (+ from (* k step)))
-            for down = (max 0d0 (- from (* k step)))
-            do (when (and (> up from) (other-p up))
-                 (return (change (max from (- up step)) up)))
-               (when (and (< down from) (other-p down))
-                 (return (change (min from (+ down step)) down)))))))
-
-(defun at-once-p (from to)
-  "True if a value that is 0, FROM, changes the choice as soon as it is more: at TO."
-  (and (zerop from) (< to 1d-12)))
-
-(defun halve (same other other-p)
-  "Return two numbers between SAME and OTHER, as near to each other as may be, of which OTHER-P is
-false and true, as of SAME and OTHER."
-  (loop repeat 100
-        for middle = (/ (+ same other) 2)
-        until (or (= middle same) (= middle other))
-        do (if (funcall other-p middle) (setf other middle) (setf same middle)))
-  (values same other))
-
-(defun short-decimal-beyond (same other from other-p)
-  "Return the shortest decimal, from three digits on, that is beyond OTHER as seen from FROM, of which
-OTHER-P is true, and false of the next one of as many digits towards FROM.  SAME is just before."
-  (let* ((direction (if (> other same) 1 -1))
-         (exponent (decimal-exponent (rational (max same other)))))
-    (loop for digits from 3 to 17
-          for unit = (expt 10 (- exponent digits -1))
-          for value = (* unit direction (ceiling (* direction (rational other)) unit))
-          for next = (- value (* direction unit))
-          when (and (<= unit (* direction (- value (rational from))))
-                    (funcall other-p (coerce value 'double-float))
-                    (not (funcall other-p (coerce next 'double-float))))
-            return (coerce value 'double-float)
-          finally (return other))))
-
-(defun find-changes (plan)
-  "Return the CHANGEs of single values that change the choice of PLAN, the smallest first."
-  (stable-sort (loop for row in (remove nil *box-keys* :key #'box-key-words)
-                     append (loop for index below (if (eq (box-key-type row) :needs) 6 1)
-                                  for change = (find-change plan row index)
-                                  when change collect change))
-               #'< :key #'change-size))
+(defun task-keys ()
+  "Return the keys whose values belong to the task and the material, not to the shape of the box."
+  (remove-if (lambda (row) (or (null (box-key-words row)) (consp (box-key-type row)))) *box-keys*))
 
 ;;; The answer
 
@@ -166,18 +82,20 @@ OTHER-P is true, and false of the next one of as many digits towards FROM.  SAME
   "Return the CHOICE on PLAN: why its best grasp is the best, and what would change the choice."
   (when (unfinished-p (need-plan plan))
     (refuse-argument "the run is not over, so there is no best grasp yet"))
-  (let* ((best (plan-best plan))
-         (runner-up (second (plan-possible plan))))
-    (make-choice :plan plan
-                 :sentence (if best
-                               (grasp-sentence best)
-                               (format nil "The box can't be grasped: ~a" (plan-reason plan)))
-                 :force (and best (force-limit best plan))
-                 :velocity (and best (velocity-limit best plan))
-                 :runner-up (and best runner-up)
-                 :margin (and best runner-up
-                              (- (candidate-quality best) (candidate-quality runner-up)))
-                 :changes (find-changes plan))))
+  (let ((best (plan-best plan))
+        (runner-up (second (plan-possible plan))))
+    (multiple-value-bind (changes stepped) (find-changes plan (other-choice plan) (task-keys))
+      (make-choice :plan plan
+                   :sentence (if best
+                                 (grasp-sentence best)
+                                 (format nil "The box can't be grasped: ~a" (plan-reason plan)))
+                   :force (and best (force-limit best plan))
+                   :velocity (and best (velocity-limit best plan))
+                   :runner-up (and best runner-up)
+                   :margin (and best runner-up
+                                (- (candidate-quality best) (candidate-quality runner-up)))
+                   :changes (stable-sort changes #'< :key #'change-size)
+                   :stepped stepped))))
 
 (defun explain-best (&optional (plan *plan*))
   "Print and return why the best grasp of PLAN is the best: how it holds the box, what limits it, the
@@ -197,7 +115,8 @@ choice to change."
             (number-text (choice-margin answer))))
   (if (choice-changes answer)
       (write-changes (choice-changes answer) stream)
-      (format stream "No single need, friction or weight would change the choice.~%")))
+      (format stream "No single need, friction or weight would change the choice.~%"))
+  (write-stepped (choice-stepped answer) stream))
 
 (defun write-limit (kind verb beyond limit stream)
   (when limit
@@ -229,7 +148,8 @@ choice to change."
   "Return four texts of CHANGE: what is to be different, the value that it would have, the value that it
 has, and what would then be chosen."
   (list (change-what change)
-        (if (at-once-p (change-from change) (change-size change))
+        (if (and (at-once-p (change-from change) (change-limit change))
+                 (= (change-to change) +most-at-once+))
             "anything above 0"
             (exact-number-text (change-to change)))
         (exact-number-text (change-from change))
