@@ -28,9 +28,17 @@
   "Return the names of the tests that NAME, a symbol, names: one, or those of a suite, in order."
   (let ((test (get-test name)))
     (if (typep test 'fiveam::test-suite)
-        (loop for member being the hash-keys of (fiveam::tests test)
-              append (tests-of member))
+        (mapcan #'tests-of (members-of test))
         (list name))))
+
+(defun members-of (suite)
+  "Return the names of the tests and suites in SUITE, in order.  FiveAM 1.4.2 keeps them in a
+table, 1.4.3 in an object of its own."
+  (let ((members (fiveam::tests suite))
+        (reader (find-symbol "%TEST-NAMES" :fiveam)))
+    (if reader
+        (reverse (funcall reader members))
+        (loop for member being the hash-keys of members collect member))))
 
 (defun named-tests (names)
   "Return the names of the tests that NAMES, strings, name; without NAMES, of all."
