@@ -12,7 +12,7 @@
   (:use :cl :supergrip-data :supergrip-chainer :supergrip-words)
   (:shadow #:assertions)
   (:import-from :supergrip-statics #:exact-radius #:holds-p #:contact-forces #:wrench-entries
-                #:least-squeeze #:least-friction #:sure-radius)
+                #:least-squeeze #:least-friction #:sure-radius #:sure)
   (:implement :supergrip :supergrip-data :supergrip-chainer)
   (:lock t)
   (:documentation "An expert system that chooses the best grasp of a three-fingered gripper on a
@@ -60,7 +60,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-force-radius #:candidate-velocity-radius
    #:candidate-force-axis #:candidate-velocity-axis
    #:candidate-offset #:candidate-contacts #:candidate-approach
-   #:candidate-wrench #:candidate-twist #:candidate-failure
+   #:candidate-wrench #:candidate-twist #:candidate-sure #:candidate-failure
    #:candidate-palm #:candidate-load #:candidate-force-need #:candidate-velocity-need
    #:try-grasp
    ;; what contacts can really do

@@ -15,6 +15,16 @@
 (defun lisp-line (record) (written record #'supergrip::write-lisp-record))
 (defun json-line (record) (written record #'supergrip::write-json-record))
 
+(defun true-radius (candidate plan)
+  "Return the values of EXACT-RADIUS of the contacts of CANDIDATE of PLAN, for its task and weight."
+  (let ((box (supergrip:plan-box plan)))
+    (supergrip:exact-radius
+     (loop for contact in (supergrip:candidate-contacts candidate plan)
+           collect (list (getf contact :position) (getf contact :normal)))
+     (supergrip:box-friction box) (supergrip:box-soft-friction box)
+     (coerce (supergrip:box-force-needed box) 'list)
+     :gravity (list 0 0 (- (supergrip:box-weight box)) 0 0 0))))
+
 (test the-pencil-has-its-record
   (let ((record (supergrip::plan-record (supergrip:plan (cons '(:name "pencil") *good-box*))
                                         :line 3)))
@@ -25,9 +35,26 @@
             (:approach (0d0 0d0 -1d0)) (:tried 6) (:possible 6) (:reason nil))
           do (is (equalp value (getf record key)) "~a" key))
     (is (close-to 0.86d0 (getf record :quality)))
+    (is (close-to 0.5752262775582044d0 (getf record :sure)))
     (is (= 3 (length (getf record :contacts))))
     (is (equal '(:surface "Y2" :position (-0.86875d0 -1d0 0d0) :normal (0d0 1d0 0d0))
                (first (getf record :contacts))))))
+
+(test what-is-sure-is-never-above-what-the-contacts-can-do
+  "A sure radius is at most the exact one of the same contacts, at the box's own weight."
+  (let ((checked 0))
+    (for-random-boxes (box 150 42)
+      (let* ((plan (supergrip:plan box))
+             (best (supergrip:plan-best plan))
+             (sure (and best (supergrip:candidate-sure best plan))))
+        (is (eql sure (and best (getf (supergrip::plan-record plan) :sure))))
+        (if (and best (supergrip:candidate-force-radius best))
+            (multiple-value-bind (upper lower) (true-radius best plan)
+              (declare (ignore lower))
+              (incf checked)
+              (is (<= -1d-9 sure (+ upper 1d-9)) "~s: ~a ~a" box sure upper))
+            (is (null sure)))))
+    (is (< 20 checked))))
 
 (test both-notations-read-back-as-the-record
   (for-random-boxes (box 300 41)

@@ -14,7 +14,8 @@
 :APPROACH  a unit vector in the box frame, from the palm to the box.
 :CONTACTS  a list of (:SURFACE face :POSITION along X Y Z, in cm, :NORMAL inward unit vector).
 :TRIED :POSSIBLE  how many candidates were tried, and how many of them are possible.
-:REASON  why the box can't be grasped."
+:REASON  why the box can't be grasped.
+:SURE  the sure radius of the best grasp, CANDIDATE-SURE; NIL where the task needs no force."
   (let ((best (plan-best plan))
         (candidates (plan-candidates plan)))
     (list* :name (box-name (plan-box plan))
@@ -23,7 +24,8 @@
            (append (if best (grasp-part best plan) (grasp-part nil nil))
                    (list :tried (length candidates)
                          :possible (count :possible candidates :key #'%candidate-outcome)
-                         :reason (plan-reason plan))))))
+                         :reason (plan-reason plan)
+                         :sure (and best (candidate-sure best plan)))))))
 
 (defun grasp-part (best plan)
   "Return the part of a record that tells of the grasp BEST of PLAN, or of none."
@@ -54,7 +56,8 @@
                        :problems (loop for problem in problems
                                        collect (list :line (problem-line problem)
                                                      :column (problem-column problem)
-                                                     :text (problem-text problem)))))))
+                                                     :text (problem-text problem)))
+                       :sure nil))))
 
 (defun problem-reason (problem)
   "Return PROBLEM as line LINE, column COLUMN: TEXT."

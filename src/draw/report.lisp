@@ -80,9 +80,15 @@ forces in units of one finger’s greatest normal force, torques in their produc
 (defun weak-text (kind radius)
   "Return what a RADIUS below 1 of KIND means, or NIL for one that is not below."
   (and radius (< radius 1)
-       (format nil "~a: ~a is below 1, so the grasp can’t do all that the task may need; it can do ~
-                    ~a of it in the worst direction." kind (index-text radius)
-               (index-text radius))))
+       (format nil "~a: ~a is below 1, so on its tightest axis the grasp has less than the task may ~
+                    need." kind (index-text radius))))
+
+(defun sure-text (plan)
+  "Return what the best grasp of PLAN surely bears, or NIL if no force is needed."
+  (let ((sure (candidate-sure (plan-best plan) plan)))
+    (and sure
+         (format nil "What is sure: together, and in any direction, the contacts bear ~a times the ~
+                      forces and torques asked for." (quantity sure 3)))))
 
 (defun put-meaning (plan)
   "Write in plain words what the quality index of PLAN and its radii mean."
@@ -92,9 +98,11 @@ forces in units of one finger’s greatest normal force, torques in their produc
         (:p :class "soft"
             (say "The quality index Q compares the grasps of one task: higher is better.  It ~
                   is neither a percentage nor a probability, and says nothing across tasks.  A radius ~
-                  of 1 is exactly enough; above 1 there is something to spare.~@[  ~a~]~@[  ~a~]"
+                  of 1 is exactly enough on the tightest axis; above 1 there is something to ~
+                  spare there.~@[  ~a~]~@[  ~a~]~@[  ~a~]"
                  (weak-text "Forces" (candidate-force-radius best))
-                 (weak-text "Velocities" (candidate-velocity-radius best))))))))
+                 (weak-text "Velocities" (candidate-velocity-radius best))
+                 (sure-text plan)))))))
 
 ;;; The box
 

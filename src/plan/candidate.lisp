@@ -128,6 +128,19 @@ six numbers, forces in finger forces, torques in finger force x cm.  NIL where i
 NIL where it failed before."
   (replayed-six #'workspace-twist candidate plan))
 
+(defun candidate-sure (candidate &optional (plan *plan*))
+  "Return the sure radius of CANDIDATE of PLAN: how many times the forces and torques that the task
+needs, all together and in any direction, its contacts surely bear beside the weight; a double, 0 or
+more.  NIL if it is not possible, or the task needs no force.  u_w looks at one axis at a time, and is
+no such promise.  Source: SURE-RADIUS."
+  (and (eq (candidate-outcome candidate) :possible)
+       (with-replay (workspace candidate plan)
+         (let ((box (workspace-box workspace))
+               (gravity (make-six)))
+           (setf (aref gravity 2) (- (%box-weight box)))
+           (sure (workspace-wrench workspace) (%box-force box) gravity
+                 (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))))
+
 (defun candidate-palm (candidate)
   "Return the name of the box face that the palm of CANDIDATE is over."
   (face-name (svref (matching-faces (%candidate-matching candidate))
