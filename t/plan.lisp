@@ -17,7 +17,7 @@
 (defun ask (reader object plan)
   "Return the answer of READER about OBJECT, of PLAN if it wants that as well."
   (if (member reader '(supergrip:candidate-contacts supergrip:candidate-wrench
-                       supergrip:candidate-twist supergrip:candidate-failure
+                       supergrip:candidate-twist supergrip:candidate-sure supergrip:candidate-failure
                        supergrip:candidate-load supergrip:candidate-force-need
                        supergrip:candidate-velocity-need))
       (funcall reader object plan)
