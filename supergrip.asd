@@ -50,6 +50,17 @@
                              (:file "choice")
                              (:file "requires")
                              (:file "describe")))
+               (:module "verify"
+                :serial t
+                :components ((:file "findings")
+                             (:file "views")
+                             (:file "quantities")
+                             (:file "situations")
+                             (:file "rule-answers")
+                             (:file "proof")
+                             (:file "search")
+                             (:file "verify")
+                             (:file "changes")))
                (:module "session"
                 :serial t
                 :components ((:file "transcript")
@@ -206,6 +217,7 @@
                (:file "by-hand")
                (:file "words")
                (:file "edit")
+               (:file "verify")
                (:file "json")
                (:file "box-keys")
                (:file "record")

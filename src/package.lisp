@@ -44,6 +44,15 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    ;; editing
    #:rule #:edit #:forget #:reload-knowledge #:compare-knowledge
    #:difference #:difference-box #:difference-what #:difference-old #:difference-new
+   #:difference-situations
+   ;; verifying
+   #:verify-knowledge #:verification #:verification-p #:verification-knowledge #:verification-gamma
+   #:verification-situations #:verification-kinds #:verification-seed #:verification-several
+   #:verification-unseen #:verification-numbers
+   #:verification-rules #:verification-findings #:verification-boxes #:verification-all-boxes
+   #:rule-use #:rule-use-name #:rule-use-fires #:rule-use-matters
+   #:finding #:finding-kind #:finding-rule #:finding-other #:finding-grasp #:finding-situations
+   #:finding-boxes #:finding-witness #:finding-more
    ;; boxes
    #:parse-box #:box-name #:box-size #:box-weight #:box-friction #:box-soft-friction
    #:box-constrained #:box-force-needed #:box-velocity-needed #:box-value #:define-box-key #:box-facts

@@ -59,6 +59,7 @@
           ("--number-limit is a whole number" "--number-limit" "0")
           ("--name-limit is a whole number" "--name-limit" "x")
           ("--check reads no boxes: x" "--check" "x")
+          ("--verify goes with --check" "--verify" "x")
           ("there is no option -x" "-x"))
         do (multiple-value-bind (status output errors) (run-on "" (cons (program) options))
              (is (eql 64 status) "~a: ~a" options status)
@@ -91,6 +92,18 @@
                (is (eql 65 status))
                (is (equal "" output))
                (is (search ":1: RULE A, action 1: TRY names NO-SUCH-GRASP" errors))))))
+
+(test check-verifies
+  (with-text-file (rules *good-rules*)
+    (with-text-file (grasps *good-grasps*)
+      (destructuring-bind (status output errors)
+          (shell "\"$0\" --check --verify --rules \"$1\" --grasps \"$2\"" rules grasps)
+        (is (eql 0 status))
+        (is (equal (with-output-to-string (out)
+                     (supergrip:verify-knowledge (text-knowledge *good-rules* *good-grasps*)
+                                                 :stream out))
+                   output))
+        (is (equal (format nil "4 rules and 1 grasps, no mistakes~%") errors))))))
 
 (test rules-and-grasps-of-ones-own
   (with-text-file (rules "(RULE MINE (IF (CONSTRAINED (s1))) (THEN (CANT MY REASON)))")

@@ -71,6 +71,13 @@ Signals a KNOWLEDGE-ERROR."
           (length (knowledge-rules knowledge)) (length (knowledge-grasps knowledge)) warnings))
   0)
 
+(defun check-and-verify (knowledge gamma)
+  "Report on KNOWLEDGE as CHECK does, and write what is proved and found about it to standard output.
+Return the exit status: what is found is no mistake."
+  (check knowledge)
+  (print-and-end (with-output-to-string (out)
+                   (verify-knowledge knowledge :gamma gamma :stream out))))
+
 ;;; The run
 
 (defun run-file (batch file)
@@ -184,9 +191,13 @@ report of what could not be drawn or written."
   "Do what OPTIONS, a plist, and FILES say, and return the exit status."
   (when (and (getf options :check) files)
     (misused "--check reads no boxes: ~{~a~^, ~}" files))
+  (when (and (getf options :verify) (not (getf options :check)))
+    (misused "--verify goes with --check"))
   (multiple-value-bind (knowledge status) (try-knowledge (getf options :rules)
                                                          (getf options :grasps))
     (cond ((null knowledge) status)
+          ((getf options :verify)
+           (check-and-verify knowledge (getf options :gamma *gamma*)))
           ((getf options :check) (check knowledge))
           ((and (getf options :report) (not (reportable-p (getf options :report)))) 74)
           (t

@@ -20,6 +20,8 @@ record a box to standard output, in the same order: the best of seven grasps for
   --report DIR              also write a page for each box into DIR, and an index with thumbnails;
                             needs cl-who (docs/pictures.md), and keeps all plans till the end
   --check                   only read the rules and grasps, and say what is wrong with them
+  --verify                  with --check: also report to standard output what is proved of the rules,
+                            and where they and the grasps disagree (docs/verifying.md)
   --depth-limit N           how deep lists may nest; 32 by default, 1000 at most
   --record-limit N          the most characters of one box; 65536 by default, 1000000 at most, and
                             fewer if the heap (--dynamic-space-size) has no room for them
@@ -68,6 +70,7 @@ Examples:
     ("--name-limit" :name-limit :count 1000)
     ("--report" :report :file)
     ("--check" :check)
+    ("--verify" :verify)
     ("--help" :help)
     ("-h" :help)
     ("--version" :version))

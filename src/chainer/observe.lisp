@@ -44,6 +44,32 @@ Returns the STOP, or NIL."
                      (return-from run-observed stop)))))))
   nil)
 
+(defun run-in-order (rules memory perform)
+  "Run RULES, a list of rules of one rule base in any order, on MEMORY as RUN-RULES does, but call
+PERFORM, a function of a rule, an action and a binding, in place of the function of the action.
+Returns what PERFORM returned to end the run, or NIL."
+  (declare (type memory memory) (function perform))
+  (dolist (rule rules)
+    (when (plusp (sbit (memory-awake memory) (rule-index rule)))
+      (let ((count (find-bindings (rule-matcher rule) memory)))
+        (when (plusp count)
+          (dolist (action (rule-actions rule))
+            (dotimes (i (if (action-once action) 1 count))
+              (let ((stop (funcall perform rule action (aref (memory-bindings memory) i))))
+                (when stop
+                  (return-from run-in-order stop))))))))))
+
+(defun rule-met-p (rule memory)
+  "True if all clauses of RULE are met together on MEMORY, that of a run which has come to a rule."
+  (and (plusp (sbit (memory-awake memory) (rule-index rule)))
+       (plusp (find-bindings (rule-matcher rule) memory))))
+
+(defun met-clauses (rule memory)
+  "Return how many clauses of RULE, from the first on, MEMORY meets together."
+  (loop for count downfrom (length (rule-clauses rule)) above 0
+        when (prefix-bindings rule count memory) return count
+        finally (return 0)))
+
 (defun binding-text (rule binding)
   "Return BINDING of RULE as \"S1 = Z1, S2 = Y2\".  Variables are bound in their order, so those
 that are not bound yet are the last."

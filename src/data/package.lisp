@@ -14,7 +14,7 @@ in them.")
    #:make-problem #:errors-in #:warnings-in #:suggestion
    ;; SBCL itself
    #:backquote-p #:take-from #:give-to #:with-plain-floats #:without-float-traps #:global-name-p
-   #:define-typed-word #:typed-name
+   #:seeded-state #:define-typed-word #:typed-name
    #:system-failure #:system-failure-errno #:read-failure #:write-failure #:+is-directory+
    #:native-path #:native-name #:directory-p #:open-descriptor #:file-text #:room-for
    ;; text

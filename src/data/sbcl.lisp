@@ -68,6 +68,12 @@ template."
   "Return the form after COMMA, and true if it is one element of the list around it, not many."
   (values (sb-int:comma-expr comma) (eql 0 (sb-int:comma-kind comma))))
 
+;;; Random numbers
+
+(defun seeded-state (seed)
+  "Return a random state that SEED, an integer from 0, chooses."
+  (sb-ext:seed-random-state seed))
+
 ;;; The heap
 
 (defconstant +octets-of-character+ 150

@@ -4,13 +4,15 @@
 
 (in-package :supergrip)
 
-(defstruct (input-row (:constructor make-input-row (name arity dimension assert note)))
+(defstruct (input-row (:constructor make-input-row (name arity dimension assert note
+                                                               numbers)))
   "A preliminary assertion: its NAME, a string; how many faces its lists have, ARITY; the name of the
 gripper's DIMENSION that is its threshold, or NIL; ASSERT, a function of a memory, the predicate, a
 box and the threshold that remembers all that holds; NOTE, one of a face list, a box and the
-threshold that returns why that holds, a sentence."
+threshold that returns why that holds, a sentence; NUMBERS, those that its test names itself."
   (name "" :type string :read-only t) (arity 0 :read-only t) (dimension nil :read-only t)
-  (assert nil :type function :read-only t) (note nil :type function :read-only t))
+  (assert nil :type function :read-only t) (note nil :type function :read-only t)
+  (numbers '() :type list :read-only t))
 
 (defvar *inputs* '() "The rows that DEFINE-INPUT has defined, in the order of their definition.")
 
@@ -21,6 +23,11 @@ threshold that returns why that holds, a sentence."
   "Return the predicates of all preliminary assertions, as BUILD-RULEBASE wants them."
   (loop for row in *inputs*
         collect (list (list (input-row-name row)) (input-row-arity row))))
+
+(defun numbers-in (form)
+  "Return the numbers in FORM, that of a test."
+  (cond ((realp form) (list form))
+        ((consp form) (append (numbers-in (car form)) (numbers-in (cdr form))))))
 
 (defmacro define-input (name (kind &rest variables) (&optional (threshold (gensym)) dimension)
                         test phrase)
@@ -57,7 +64,8 @@ has the assertion."
          (declare (type face-list face-list) (ignorable face-list box ,threshold))
          (let ,bindings
            (declare (ignorable ,@variables))
-           ,phrase))))))
+           ,phrase))
+       (numbers-in ',test)))))
 
 (defun apart-text (distance relation dimension threshold)
   "Return that two faces are DISTANCE apart, which stands in RELATION to the DIMENSION, THRESHOLD."

@@ -4,8 +4,10 @@
 
 (defstruct difference
   "A box for which two knowledge bases differ.  WHAT is :VERDICT, :GRASP (or its matching) or
-:QUALITY; OLD and NEW are the plans."
-  box what old new)
+:QUALITY; OLD and NEW are the plans.  Where situations are compared, BOX is the smallest of
+SITUATIONS alike, and WHAT is :CANT (whether, and in which words, rules refuse the box), :TRIED
+(what they suggest) or :ORDER (of what they suggest)."
+  box what old new (situations nil))
 
 (define-printing (difference difference) "~a" (difference-what difference))
 
@@ -36,20 +38,34 @@
 (defun compare-knowledge (old new boxes &key (gamma *gamma*) (stream *standard-output*))
   "Plan each of BOXES, or the one box, with the knowledge OLD and with NEW; write what differs to
 STREAM (NIL: do not) and return a list of DIFFERENCEs, in the order of BOXES.  A fact of a box that
-only one of the two declares is left out for the other."
+only one of the two declares is left out for the other.
+
+If BOXES is :SITUATIONS, compare instead what the rules answer in all situations that the rules of
+either can tell apart: whether they refuse the box, what they suggest, and in which order.  There
+is a DIFFERENCE for each kind of change, with the smallest box that shows it."
   (mapc #'check-knowledge-argument (list old new))
-  (unless (or (box-p boxes) (proper-list-p boxes))
-    (refuse-argument "~a is not a list of boxes" (form-text boxes)))
-  (let* ((boxes (if (one-box-p boxes) (list boxes) boxes))
-         (differences
+  (cond ((eq boxes :situations)
+         (compare-situations old new gamma stream))
+        ((or (box-p boxes) (proper-list-p boxes))
+         (compare-boxes old new (if (one-box-p boxes) (list boxes) boxes) gamma stream))
+        (t (refuse-argument "~a is not a list of boxes" (form-text boxes)))))
+
+(defun make-plans-difference (box what old new gamma &optional situations)
+  "Return the DIFFERENCE for BOX between the plans with the knowledge OLD and NEW, or NIL if WHAT, a
+function of the two plans, returns that."
+  (let* ((old-plan (plan (box-known-to old box new) :knowledge old :gamma gamma))
+         (new-plan (plan (box-known-to new box old) :knowledge new :gamma gamma))
+         (what (funcall what old-plan new-plan)))
+    (and what
+         (make-difference :box box :what what :old old-plan :new new-plan
+                          :situations situations))))
+
+(defun compare-boxes (old new boxes gamma stream)
+  (let ((differences
           (loop for given in boxes
                 for box = (if (box-p given) given (parse-box given))
-                for old-plan = (plan (box-known-to old box new) :knowledge old :gamma gamma)
-                for new-plan = (plan (box-known-to new box old) :knowledge new :gamma gamma)
-                for what = (plan-difference old-plan new-plan)
-                when what
-                  collect (make-difference :box box :what what
-                                           :old old-plan :new new-plan))))
+                for difference = (make-plans-difference box #'plan-difference old new gamma)
+                when difference collect difference)))
     (when stream
       (dolist (difference differences)
         (write-difference difference stream))
@@ -60,6 +76,21 @@ only one of the two declares is left out for the other."
                 (count :grasp differences :key #'difference-what)
                 (count :quality differences :key #'difference-what))))
     differences))
+
+(defun compare-situations (old new gamma stream)
+  (multiple-value-bind (changes count seed) (with-progress (compare-rules old new))
+    (when stream
+      (plainly
+        (dolist (change changes)
+          (format stream "~{~a~^; ~}: ~d situation~:p, as~%  ~a~%" (rule-change-texts change)
+                  (rule-change-situations change) (box-text (rule-change-box change))))
+        (format stream "The rules answer something else in ~d of ~d situations~@[ that were drawn ~
+                        with the seed ~d~].~%"
+                (reduce #'+ changes :key #'rule-change-situations) count seed)))
+    (loop for change in changes
+          collect (make-plans-difference (rule-change-box change)
+                                         (constantly (rule-change-what change)) old new gamma
+                                         (rule-change-situations change)))))
 
 (defun quality-texts (old new)
   "Return the qualities OLD and NEW, NIL for none, with three decimals, or more if that shows no
