@@ -163,8 +163,9 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
 (defstruct draft
   "A grasp whose forms are checked and are nodes still."
   (name nil :read-only t) (form nil :read-only t) (file nil :read-only t) (line nil :read-only t)
-  (comment nil :read-only t) (used nil :read-only t) (palm nil :read-only t) (conditions nil :read-only t)
-  (offset nil :read-only t) (contacts nil :read-only t) (wrench nil :read-only t) (twist nil :read-only t))
+  (comment nil :read-only t) (used nil :read-only t) (palm nil :read-only t)
+  (conditions nil :read-only t) (offset nil :read-only t) (contacts nil :read-only t)
+  (wrench nil :read-only t) (twist nil :read-only t))
 
 (defun parse-conditions (form scope)
   "Return the node of FORM, the grasping conditions; warn if they never hold."

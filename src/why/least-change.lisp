@@ -12,8 +12,7 @@
   "How narrow an interval is, relative to its distance from 0, that is not halved any more.")
 
 (defparameter +most-intervals+ 4000
-  "How many intervals of a line are halved down to the resolution; the others to a 500th of the
-line.")
+  "How many intervals of a line are halved down to the resolution; the others only to a step.")
 
 (defconstant +steps+ 500 "The steps of a line that is not searched throughout.")
 
@@ -375,8 +374,10 @@ before."
   "Return how PLACE, where a change begins, stands to a dimension of the gripper that it is next
 to, the name of that and itself; or NIL."
   (let ((up (> place (line-from line))))
-    (loop for (name . number) in (knowledge-gripper (plan-knowledge (line-plan line)))
-          do (cond ((= place number)
+    (loop for (name . number) in (and (not (eq (box-key-type (line-row line)) :needs))
+                                      (knowledge-gripper (plan-knowledge (line-plan line))))
+          do (cond ((zerop number))
+                   ((= place number)
                     (return (list (if up "no less than" "no more than") name number)))
                    ((= place (next-double number (if up 1 -1)))
                     (return (list (if up "more than" "less than") name number)))))))
@@ -403,7 +404,8 @@ GOAL true; NIL if none does."
   "Return how far a line of the key ROW goes that is FROM in PLAN: needs to 1, others to four
 times what they are or to 2; sizes, and all if GOAL only depends on what is known of the box, also
 to four times the greatest dimension of the gripper."
-  (let ((reach (reduce #'max (knowledge-gripper (plan-knowledge plan)) :key #'cdr)))
+  (let ((reach (reduce #'max (knowledge-gripper (plan-knowledge plan))
+                       :key #'cdr :initial-value 0d0)))
     (cond ((eq (box-key-type row) :needs) 1d0)
           ((or (consp (box-key-type row)) (null (goal-winner goal)))
            (max 2d0 (* 4 from) (* 4 reach)))
