@@ -32,7 +32,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:not-chosen #:not-chosen-kind #:not-chosen-text #:not-chosen-grasp #:not-chosen-matching
    #:not-chosen-candidates #:not-chosen-refusals #:not-chosen-outcome #:not-chosen-margin
    #:not-chosen-faces
-   #:choice #:choice-sentence #:choice-force #:choice-velocity #:choice-runner-up #:choice-margin
+   #:choice #:choice-sentence #:choice-force #:choice-velocity #:choice-sure #:choice-runner-up #:choice-margin
    #:choice-changes #:choice-stepped #:limit #:limit-axis #:limit-has #:limit-needs #:limit-radius
    #:change #:change-words #:change-what #:change-from #:change-to #:change-box #:change-plan
    #:change-limit #:change-size #:change-threshold

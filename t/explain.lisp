@@ -111,6 +111,7 @@
   (is (equal '("PINCH-3-PARALLEL: two fingers on Y2, a finger on Y1; the palm over Z1, coming from above."
                "Force is limited about Y: the grasp exerts 1.095 beyond the weight's load, the task needs 1; radius 1.095."
                "Velocity is limited about Y: the grasp moves with 0.5, the task needs 0.8; radius 0.625."
+               "What is sure: together, and in any direction, the contacts bear 0.5752 times the forces and torques asked for."
                "The grasp gives only 0.625 of the velocity asked for, which is enough if the needs only say what matters more."
                "Q, 0.860, only compares grasps for one task; it is not a probability of success."
                "Next is PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1), with a Q lower by 0.08965."

@@ -1,6 +1,6 @@
 ;;;; define-action.lisp -- what an action of a rule is: DEFINE-ACTION, and what a verb tells of itself.
 ;;;;
-;;;; REMEMBER and CANT are defined in actions.lisp; TRY and KEEP in plan/actions.lisp.
+;;;; REMEMBER and CANT are defined in remember-and-cant.lisp, TRY and KEEP in plan/try-and-keep.lisp.
 
 (in-package :supergrip-chainer)
 

@@ -9,9 +9,10 @@ the effect of the offset, and the RADIUS."
 
 (defstruct (choice (:include explanation))
   "Why the best grasp of PLAN is the best.  SENTENCE says how it holds the box; FORCE and VELOCITY are
-LIMITs or NIL; RUNNER-UP is the next candidate or NIL, MARGIN its distance in Q; CHANGES is a list
-of CHANGEs, the smallest first; STEPPED are the names of values that were only looked at in steps."
-  plan sentence force velocity runner-up margin (changes '()) (stepped '()))
+LIMITs or NIL; SURE is CANDIDATE-SURE of the best; RUNNER-UP is the next candidate or NIL, MARGIN its
+distance in Q; CHANGES is a list of CHANGEs, the smallest first; STEPPED are the names of values that
+were only looked at in steps."
+  plan sentence force velocity sure runner-up margin (changes '()) (stepped '()))
 
 ;;; How it holds the box
 
@@ -91,6 +92,7 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
                                  (format nil "The box can't be grasped: ~a" (plan-reason plan)))
                    :force (and best (force-limit best plan))
                    :velocity (and best (velocity-limit best plan))
+                   :sure (and best (candidate-sure best plan))
                    :runner-up (and best runner-up)
                    :margin (and best runner-up
                                 (- (candidate-quality best) (candidate-quality runner-up)))
@@ -107,6 +109,7 @@ choice to change."
   (format stream "~a.~%" (choice-sentence answer))
   (write-limit "Force" "exerts" "beyond the weight's load" (choice-force answer) stream)
   (write-limit "Velocity" "moves with" nil (choice-velocity answer) stream)
+  (write-sure (choice-sure answer) stream)
   (write-meaning answer stream)
   (when (choice-runner-up answer)
     (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, but tried later~;a Q lower by ~a~].~%"
@@ -125,6 +128,12 @@ choice to change."
       (declare (ignore one))
       (format stream "~a is limited ~a: the grasp ~a ~a~@[ ~a~], the task needs ~a; radius ~a.~%" kind
               (limit-axis limit) verb has beyond needs radius))))
+
+(defun write-sure (sure stream)
+  "Write what SURE, a sure radius, is, if it is one."
+  (when sure
+    (format stream "What is sure: together, and in any direction, the contacts bear ~a times the ~
+                    forces and torques asked for.~%" (number-text sure))))
 
 (defun write-meaning (answer stream)
   "Write what a radius below 1, and Q, mean."

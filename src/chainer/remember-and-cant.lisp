@@ -1,4 +1,4 @@
-;;;; actions.lisp -- the actions REMEMBER and CANT, those of a standard chainer.
+;;;; remember-and-cant.lisp -- the actions REMEMBER and CANT, those of a standard chainer.
 
 (in-package :supergrip-chainer)
 

@@ -1,4 +1,4 @@
-;;;; actions.lisp -- the actions TRY and KEEP, which attach the grasps to the rules.
+;;;; try-and-keep.lisp -- the actions TRY and KEEP, which attach the grasps to the rules.
 
 (in-package :supergrip)
 
