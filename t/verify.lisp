@@ -443,6 +443,15 @@ the rules."
       (is (equal (supergrip::box-description box)
                  (supergrip::box-description (read-back box)))))))
 
+(test thresholds-may-be-of-any-size
+  (flet ((searched (key &rest changes)
+           (let ((text (format nil "~a~%~a" *small-gripper* (apply #'grasp-text changes))))
+             (rest (assoc key (supergrip:verification-numbers
+                               (verified (text-knowledge *good-rules* text))))))))
+    (is (find 0.5d0 (searched :size :conditions "((DIST '(N1 N2)) > 0)")))
+    (is (find 7777d0 (searched :size :conditions "((DIST '(N1 N2)) < 7777)")))
+    (is (find 0.777d0 (searched :u :conditions "((u > 0.777) AND (u > 0) AND (u > -1))")))))
+
 (test long-work-shows-how-far-it-is
   (let ((lines (with-output-to-string (out)
                  (let ((supergrip::*progress* (supergrip::terminal-progress out)))

@@ -78,7 +78,7 @@ grippers, and the numbers that tests name."
 neighbours, and others in even steps."
   (let ((even (if (eq (box-key-type row) :needs)
                   (loop for i from 0 to 50 collect (/ i 50d0))
-                  (cons 0d0 (loop for i from -36 to 36 collect (expt 10d0 (/ i 12)))))))
+                  (cons 0d0 (loop for i from -36 to 72 collect (expt 10d0 (/ i 12)))))))
     (sort (remove-duplicates (remove-if-not (lambda (number) (allowed-p number row))
                                             (append even (mapcan #'neighbours special))))
           #'<)))
@@ -182,7 +182,7 @@ names."
             finally (return low))))
 
 (defparameter +far-below+ 1d-3 "What is no greater is where an interval is not bounded below.")
-(defparameter +far-above+ 1d3 "What is no smaller is where an interval is not bounded above.")
+(defparameter +far-above+ 1d6 "What is no smaller is where an interval is not bounded above.")
 
 (defun class-number (class plain)
   "Return a number of CLASS, an interval: PLAIN if that is in it, or one well inside that is short."

@@ -20,14 +20,14 @@ says, a function, and OTHER a constant; or NIL."
   (and (funcall thing node) (constant-p other) (constant-value other)))
 
 (defun grasp-thresholds (knowledge thing)
-  "Return the numbers with which the conditions of the grasps of KNOWLEDGE compare what THING, a
-function, is true of."
+  "Return the numbers above 0 with which the conditions of the grasps of KNOWLEDGE compare what
+THING, a function, is true of."
   (remove-duplicates
    (loop for grasp in (knowledge-grasps knowledge)
          append (loop for (node) in (grasp-comparisons grasp)
                       for (a b) = (comparison-nodes node)
                       for number = (or (compared-number a b thing) (compared-number b a thing))
-                      when number collect number))))
+                      when (and number (plusp number)) collect number))))
 
 (defun friction-node-p (node)
   (eql (input-of node) +u+))
