@@ -90,6 +90,10 @@ says."
               (or (curve-fault curve places #'true-value)
                   (slope-fault curve places #'true-value)))))))))
 
+(test what-is-out-of-range-at-the-ends-may-be-in-range-between
+  (is (null (supergrip-data::without-float-traps
+              (form-fault '(expt (/ 2 (cond ((< u 1) 0) (t v))) 3) '(0.9d0 1.05d0 1.1d0) 0.5d0)))))
+
 (test bounds-and-slopes-hold-between-any-two-places
   (let ((state (sb-ext:seed-random-state 61)))
     (format t "~&   random forms, seed 61~%")

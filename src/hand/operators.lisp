@@ -131,26 +131,29 @@ gives no finite number."
   "Return a function of one or two intervals and a third, into which it puts the least and the
 greatest VALUE on them, and which returns whether there is one: 2 in any case, 1 perhaps, 0
 nowhere.  VALUE is monotone, so it has them at the ends.  Rounding is monotone too: the bounds are
-true of what the doubles between the ends give, rounded."
-  (with-closure-names (a b out good bad least most result)
+true of what the doubles between the ends give, rounded.  Where VALUE is out of range at an end, it
+may be in range elsewhere."
+  (with-closure-names (a b out good bad huge least most result)
     (let* ((at-0 (eq monotone :but-at-0))
            (visit `(let ((,result (and ,when ,value)))
-                     (cond ((and (typep ,result 'double-float) (finite-p ,result))
-                            (incf ,good)
-                            (when (< ,result ,least) (setf ,least ,result))
-                            (when (> ,result ,most) (setf ,most ,result)))
-                           (t (incf ,bad))))))
+                     (cond ((not (typep ,result 'double-float)) (incf ,bad))
+                           ((not (finite-p ,result)) (incf ,huge))
+                           (t (incf ,good)
+                              (when (< ,result ,least) (setf ,least ,result))
+                              (when (> ,result ,most) (setf ,most ,result)))))))
       `(lambda (,a ,@(and y (list b)) ,out)
          (declare (type interval ,a ,@(and y (list b)) ,out))
-         (let ((,good 0) (,bad 0)
+         (let ((,good 0) (,bad 0) (,huge 0)
                (,least most-positive-double-float) (,most most-negative-double-float))
-           (declare (fixnum ,good ,bad) (double-float ,least ,most))
+           (declare (fixnum ,good ,bad ,huge) (double-float ,least ,most))
            (do-ends (,x ,a ,at-0)
              ,(if y `(do-ends (,y ,b ,at-0) ,visit) visit))
-           (when (plusp ,bad)
+           (when (plusp (+ ,bad ,huge))
              (setf ,least most-negative-double-float ,most most-positive-double-float))
            (setf (aref ,out 0) ,least (aref ,out 1) ,most)
-           (cond ((zerop ,good) 0) ((zerop ,bad) 2) (t 1)))))))
+           (cond ((zerop (+ ,bad ,huge)) 2)
+                 ((and (zerop ,good) (or (zerop ,huge) (= 1 (+ ,bad ,huge)))) 0)
+                 (t 1)))))))
 
 (defmacro define-operator (name (x &optional y) value
                            &key (counts (if y '(2 2) '(1 1))) first inner finite (when t)
