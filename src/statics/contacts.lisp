@@ -161,3 +161,7 @@ mirror images."
                        always (loop for j below count
                                       thereis (mirrored-finger-p (grip-places grip) i j mirror))))
         (setf set (logior set (ash 1 mirror)))))))
+
+(defun scaled (motion size)
+  "Divide MOTION, a six, by SIZE.  Return it."
+  (map-into motion (lambda (q) (/ q size)) motion))

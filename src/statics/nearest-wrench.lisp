@@ -10,6 +10,10 @@
 
 (defconstant +close+ 1d-9 "A target that is no farther away, in a round frame, is reached.")
 (defconstant +near+ 1d-7 "So is one that is no farther away where rounding lets it come no closer.")
+(declaim (type six *all-needed*))
+(defvar *all-needed* (map 'six #'identity '(1d0 1d0 1d0 1d0 1d0 1d0))
+  "A task with a need along each axis.")
+
 (defconstant +corners+ 8 "How many wrenches the mixture has at most.")
 
 (defstruct (finder (:copier nil) (:conc-name f-))
@@ -27,19 +31,21 @@ mixture. POWER is the greatest in the motion Q, from X to the target."
   (basis (make-doubles (* 6 +corners+)) :type doubles)
   (triangle (make-doubles (* +corners+ +corners+)) :type doubles)
   (x (make-six) :type six) (q (make-six) :type six) (w (make-six) :type six)
-  (power 0d0 :type double-float))
+  (witness (make-six) :type six)
+  (power 0d0 :type double-float) (evaluations 0 :type fixnum))
 
 (defun rows-in-frame (grip frame)
+  "Return the rows of GRIP in FRAME."
   (let* ((rows (grip-rows grip)) (framed (make-doubles (length rows))))
     (loop for start from 0 below (length rows) by +row+
           do (into-frame frame rows start framed))
     framed))
 
-(defun find-in (grip)
-  "Return a finder for GRIP."
-  (let ((frame (round-frame grip (map 'six #'identity '(1d0 1d0 1d0 1d0 1d0 1d0)) 0)))
-    (make-finder :count (grip-count grip) :u (grip-friction grip) :v (grip-soft-friction grip)
-                 :coupled (grip-coupled grip) :rows (rows-in-frame grip frame) :frame frame)))
+(defun find-in (grip &optional (frame (round-frame grip *all-needed* 0))
+                       (rows (rows-in-frame grip frame)))
+  "Return a finder for GRIP, in FRAME, in which it has ROWS."
+  (make-finder :count (grip-count grip) :u (grip-friction grip) :v (grip-soft-friction grip)
+               :coupled (grip-coupled grip) :rows rows :frame frame))
 
 (defmacro corner-dot (a i b j)
   "The product of line I of A and line J of B, six numbers each."
@@ -139,6 +145,7 @@ corner that depends on those before it gets 0."
   "Put the greatest wrench of F in the motion Q into W, and its power into POWER."
   (declare (type finder f) (optimize speed))
   (fill (f-w f) 0d0)
+  (incf (f-evaluations f))
   (setf (f-power f)
         (add-support (f-count f) (f-rows f) (f-u f) (f-v f) (f-coupled f) (f-q f) (f-w f))))
 
@@ -160,12 +167,12 @@ corner that depends on those before it gets 0."
   (setf (f-size f) 0)
   (add-corner f 1d0))
 
-(defun aim (f multiple way)
-  "Make MULTIPLE times WAY, a wrench in the frame, the target of F.  Corners stay the same
+(defun aim (f from multiple way)
+  "Make FROM and MULTIPLE times WAY, wrenches in the frame, the target of F.  Corners stay the same
 wrenches."
-  (declare (type finder f) (double-float multiple) (type six way))
+  (declare (type finder f) (double-float multiple) (type six from way))
   (dotimes (k 6)
-    (let* ((new (* multiple (aref way k))) (back (- (aref (f-target f) k) new)))
+    (let* ((new (+ (aref from k) (* multiple (aref way k)))) (back (- (aref (f-target f) k) new)))
       (setf (aref (f-target f) k) new)
       (dotimes (i (f-size f))
         (incf (aref (f-corners f) (+ (* 6 i) k)) back)))))
@@ -191,14 +198,20 @@ NIL."
 
 ;;; What it is for
 
+(defun reaches-p (f wrench)
+  "True if F can exert WRENCH, one in its frame.  If not, Q is a motion that shows it."
+  (declare (type finder f) (type six wrench))
+  (replace (f-target f) wrench)
+  (no-force f)
+  (reach-p f 0d0 +close+))
+
 (defun grip-reach (grip wrench)
   "True if GRIP can exert WRENCH, a six; the second value is the finder that knows it."
   (declare (type grip grip) (type six wrench))
   (without-float-traps
-    (let ((f (find-in grip)))
-      (into-frame (f-frame f) wrench 0 (f-target f))
-      (no-force f)
-      (values (reach-p f 0d0 +close+) f))))
+    (let ((f (find-in grip)) (framed (make-six)))
+      (into-frame (f-frame f) wrench 0 framed)
+      (values (reaches-p f framed) f))))
 
 (defun opposite (six)
   (declare (type six six))
@@ -240,24 +253,26 @@ If there are none, return NIL and a motion in which the fingers do less power th
             (add-forces f motion (aref (f-shares f) i) forces)))
         (values nil (out-of-frame (f-frame f) (f-q f))))))
 
-(defun farthest (f way)
-  "Return the greatest multiple of WAY, a wrench in the frame of F, that F can exert."
-  (declare (type finder f) (type six way))
-  (let ((entry most-positive-double-float))
-    (declare (double-float entry))
+(defun farthest (f way from)
+  "Return the greatest multiple of WAY that F can exert together with FROM, wrenches in the frame; F
+can exert FROM alone.  WITNESS is then a motion that shows that it is the greatest."
+  (declare (type finder f) (type six way from))
+  (let ((most most-positive-double-float))
+    (declare (double-float most))
     (no-force f)
     (replace (f-q f) way)
     (support f)
     ;; Each motion that shows a multiple to be too great says how great it can be at most.
     (loop repeat 200
-          do (let ((most (/ (f-power f) (row-dot way 0 (f-q f)))))
-               (declare (double-float most))
-               (when (<= most +close+) (return 0d0))
-               (when (>= most (* entry (- 1d0 1d-12))) (return entry))
-               (setf entry most)
-               (aim f entry way)
-               (when (reach-p f 0.5d0 +near+) (return entry)))
-          finally (return entry))))
+          do (let ((next (/ (- (f-power f) (row-dot from 0 (f-q f))) (row-dot way 0 (f-q f)))))
+               (declare (double-float next))
+               (when (>= next (* most (- 1d0 1d-12))) (return most))
+               (replace (f-witness f) (f-q f))
+               (when (<= next +close+) (return 0d0))
+               (setf most next)
+               (aim f from most way)
+               (when (reach-p f 0.5d0 +near+) (return most)))
+          finally (return most))))
 
 (defun grip-entry (grip direction &optional finder)
   "Return the greatest multiple of the wrench DIRECTION, a six, that GRIP can exert, a double: with
@@ -267,4 +282,4 @@ again for the same grip."
   (without-float-traps
     (let ((f (or finder (find-in grip))) (way (make-six)))
       (into-frame (f-frame f) direction 0 way)
-      (farthest f way))))
+      (farthest f way (make-six)))))

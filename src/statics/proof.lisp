@@ -1,18 +1,19 @@
 ;;;; proof.lisp -- the search for the worst motion, and the proof that there is none much worse.
 ;;;;
-;;;; A proof is about a grip in a frame.  For a motion x, SUPPLY is what the fingers can do at
-;;;; most, plus a wrench's power; DEMAND is the size of the task in x, plus another wrench's power.
-;;;;  UPPER is the least SUPPLY / DEMAND that was met.  To be proved: SUPPLY >= GOAL DEMAND for all
-;;;;  x, GOAL a little below UPPER.
+;;;; A proof is about a grip in a frame.  For a motion x, SUPPLY is what the fingers can do at most,
+;;;; plus a wrench's power; DEMAND is the size of the task in x, plus another wrench's power.  UPPER
+;;;; is the least SUPPLY / DEMAND that was met.  To be proved: SUPPLY >= GOAL DEMAND for all x, GOAL
+;;;; a little below UPPER.
 ;;;;
 ;;;; The motions on the faces of the cube |x| = 1 are cut into boxes.  A wrench w that the fingers
 ;;;; can exert gives SUPPLY >= w.x for all x, and w.x - GOAL DEMAND is concave.  So if it is not
-;;;; below 0 at the vertices of a box, the box is proved.  A box inherits the wrench of the one
-;;;; that it was cut from, and improves it: the motions at the vertices where it fails, weighed by
-;;;; how much it fails there, have a mean; the greatest wrench in that motion is mixed in so that
-;;;; the squares of what fails become least.  If even the greatest power in the mean is less than
-;;;; the mean of GOAL DEMAND, no wrench proves the box.  Then, or when it fails slowly, the box is
-;;;; cut across its longest edge.
+;;;; below 0 at the vertices of a box, the box is proved.  A box inherits the wrench of the one that
+;;;; it was cut from, and improves it by mixing others in, so that the squares of what fails at the
+;;;; vertices become least.  The first one is TOUCH, where the task would touch the border of what
+;;;; the fingers can exert in the worst motion met.  The next ones are the greatest in the mean of
+;;;; the vertices where the box fails, weighed by how much it fails there.  If even the greatest
+;;;; power in the mean is less than the mean of GOAL DEMAND, no wrench proves the box.  Then, or
+;;;; when it fails slowly, the box is cut across its longest edge.
 ;;;;
 ;;;; With FRICTION sought, GOAL is 1, and the friction U grows instead of GOAL falling: it is kept a
 ;;;; little above LEAST, the greatest friction that a motion was found to need.
@@ -31,13 +32,14 @@
 (defstruct (proof (:copier nil) (:conc-name p-))
   "See above.  COUNT to ROWS are the grip's, in the frame; A makes the size of the task, SUPPLY and
 DEMAND are the two wrenches.  WORST is the motion of UPPER.  HALVES and FLAT are sets of
-coordinates: those that a mirror lets be positive, those on which nothing depends.  All else is
-scratch of one box."
+coordinates: those that a mirror lets be positive, those on which nothing depends.  FINDER is one
+for the same grip in the same frame.  All else is scratch of one box."
   (count 0 :type finger-count) (u 0d0 :type not-negative) (v 0d0 :type not-negative)
   (coupled nil :type boolean) (rows nil :type doubles)
   (a nil :type six) (supply (make-six) :type six) (demand (make-six) :type six)
   (halves 0 :type (unsigned-byte 6)) (flat 0 :type (unsigned-byte 6))
   (gap 0d0 :type double-float) (absolute 0d0 :type double-float)
+  (finder nil :type finder) (touch (make-six) :type six)
   (friction nil :type boolean) (least 0d0 :type not-negative)
   (upper 1d200 :type double-float) (goal 0d0 :type double-float)
   (worst (make-six) :type six)
@@ -131,43 +133,41 @@ grows with U."
                                               (- ratio (p-absolute p)))))
                (replace (p-worst p) x)))))))
 
+(defun worse-p (p upper least)
+  "True if P has found a motion much worse than when it had UPPER and LEAST."
+  (declare (type proof p) (double-float upper least))
+  (or (< (p-upper p) (* 0.999d0 upper)) (> (p-least p) (* 1.001d0 least))))
+
+(defun put-tangent (p way)
+  "Put the wrench whose power is DEMAND in the worst motion of P, and not above it elsewhere, into
+WAY.  Return NIL if there is no such motion."
+  (declare (type proof p) (type six way))
+  (let* ((worst (p-worst p)) (a (p-a p)) (size (size-of a worst)))
+    (when (> size 0d0)
+      (dotimes (k 6 t)
+        (setf (aref way k) (+ (/ (* (aref a k) (aref worst k)) size) (aref (p-demand p) k)))))))
+
 (defun descend (p)
-  "Go down from the motion X of P to worse ones, in 40 steps on the sphere, each shorter."
-  (declare (type proof p) (optimize speed))
-  (let ((x (p-x p)) (w (p-w p)) (a (p-a p)) (step 0.25d0))
-    (declare (double-float step))
-    (dotimes (i 40)
-      (note p x w)
-      (let* ((size (size-of a x))
-             (demand (+ size (row-dot (p-demand p) 0 x))))
-        (unless (and (> demand 0d0) (> size 0d0)) (return))
-        (let ((ratio (/ (row-dot w 0 x) demand)))
-          (dotimes (k 6)
-            (decf (aref w k) (* ratio (+ (/ (* (aref a k) (aref x k)) size)
-                                         (aref (p-demand p) k))))))
-        (let ((length (sqrt (the not-negative (row-dot w 0 w)))))
-          (unless (> length 0d0) (return))
-          (dotimes (k 6)
-            (decf (aref x k) (/ (* step (aref w k)) length))))
-        (let ((length (sqrt (the not-negative (row-dot x 0 x)))))
-          (unless (> length 0d0) (return))
-          (dotimes (k 6)
-            (setf (aref x k) (/ (aref x k) length))))
-        (setf step (* step 0.88d0))))))
+  "Go from the worst motion of P to worse ones, as long as they are much worse.
+DEMAND is not below its tangent at the worst motion, which is the power of one wrench.  So the
+motion in which the fingers' reach along that wrench ends is a worse one, or as bad."
+  (declare (type proof p))
+  (let ((way (make-six)) (from (opposite (p-supply p))) (finder (p-finder p)) (x (p-x p)))
+    (loop
+      (let ((upper (p-upper p)) (least (p-least p)))
+        (unless (put-tangent p way) (return))
+        (setf (f-u finder) (p-u p))
+        (farthest finder way from)
+        (replace x (f-witness finder))
+        (map-into (p-touch p) #'+ (f-x finder) (f-target finder) (p-supply p))
+        (note p (scaled x (sqrt (the not-negative (row-dot x 0 x)))) (p-w p))
+        (unless (worse-p p upper least) (return))))))
 
 (defun look-around (p)
-  "Descend from the axes, and from between two of them where that is worse than all before."
+  "Descend from the worst of the axes of P and the ways between two of them."
   (declare (type proof p))
-  (let ((directions 0) (x (p-x p)) (start (make-six)))
-    (call-with-directions
-     (lambda ()
-       (replace x start)
-       (let ((upper (p-upper p)) (least (p-least p)))
-         (note p x (p-w p))
-         (when (or (< directions 12) (< (p-upper p) upper) (> (p-least p) least))
-           (descend p)))
-       (incf directions))
-     start)))
+  (call-with-directions (lambda () (note p (p-x p) (p-w p))) (p-x p))
+  (descend p))
 
 ;;; Boxes
 
@@ -215,7 +215,8 @@ grows with U."
 it fails, and the mean size of the task there into MEAN-SIZE.  Return NIL if it fails nowhere."
   (declare (type proof p) (optimize speed))
   (let ((values (p-values p)) (sums (p-others p)) (sizes (p-sizes p)) (middle (p-middle p))
-        (half (p-half p)) (face (p-face p)) (x (p-x p)) (sum 0d0) (size 0d0) (squares 0d0) (count 32))
+        (half (p-half p)) (face (p-face p)) (x (p-x p))
+        (sum 0d0) (size 0d0) (squares 0d0) (count 32))
     (declare (double-float sum size squares) (type (integer 0 32) count))
     (dotimes (i 32)
       (let* ((value (aref values i))
@@ -286,6 +287,10 @@ SLACK are least: at most four steps of Newton's."
     (declare (double-float before))
     (put-sizes p)
     (put-values p (p-wrench p) values)
+    (when (put-mean p)
+      (replace (p-w p) (p-touch p))
+      (put-values p (p-w p) (p-others p))
+      (mix p))
     (dotimes (i +tries+ nil)
       (unless (put-mean p) (return t))
       (let ((failing (p-failing p)))
@@ -369,6 +374,9 @@ any more: UPPER or GOAL is nothing."
                  ((>= (p-top p) (* +box+ (- +deepest+ 2))) (return nil)))
            (incf (p-boxes p))
            (pop-box p)
-           (unless (proved-p p)
-             (cut p))
+           (let ((upper (p-upper p)) (least (p-least p)))
+             (unless (proved-p p)
+               (cut p))
+             (when (worse-p p upper least)
+               (descend p)))
         finally (return t)))

@@ -9,13 +9,14 @@
 
 (defun start-proof (grip need gravity &rest slots)
   "Return a proof about GRIP and the task NEED, in a frame that suits both, with SLOTS; and the
-frame. The wrenches SUPPLY and DEMAND among SLOTS are not in the frame yet; mirrors keep GRAVITY."
+frame.  The wrenches SUPPLY and DEMAND among SLOTS are not in the frame yet; mirrors keep GRAVITY."
   (declare (type grip grip) (type six need gravity))
   (multiple-value-bind (frame a flat halves) (round-frame grip need (mirrors grip gravity))
-    (let* ((p (apply #'make-proof :count (grip-count grip) :u (grip-friction grip)
+    (let* ((rows (rows-in-frame grip frame))
+           (p (apply #'make-proof :count (grip-count grip) :u (grip-friction grip)
                                   :v (grip-soft-friction grip) :coupled (grip-coupled grip)
-                                  :rows (rows-in-frame grip frame) :a a :flat flat :halves halves
-                                  slots)))
+                                  :rows rows :finder (find-in grip frame rows)
+                                  :a a :flat flat :halves halves slots)))
       (into-frame frame (copy-seq (p-supply p)) 0 (p-supply p))
       (into-frame frame (copy-seq (p-demand p)) 0 (p-demand p))
       (values p frame))))
@@ -25,10 +26,6 @@ frame. The wrenches SUPPLY and DEMAND among SLOTS are not in the frame yet; mirr
   (declare (type six need motion))
   (sqrt (loop for f across need for q across motion sum (* f q f q) of-type not-negative)))
 
-(defun scaled (motion size)
-  "Divide MOTION, a six, by SIZE.  Return it."
-  (map-into motion (lambda (q) (/ q size)) motion))
-
 (defun cant-hold (grip gravity witness)
   "Return the values of GRIP-RADIUS for a grip that GRAVITY overcomes in the motion WITNESS."
   (let* ((length (sqrt (the not-negative (row-dot witness 0 witness))))
@@ -36,17 +33,17 @@ frame. The wrenches SUPPLY and DEMAND among SLOTS are not in the frame yet; mirr
          (power (+ (grip-power grip witness (make-six)) (row-dot gravity 0 witness))))
     (values (min power 0d0) (min power 0d0) witness 0)))
 
-(defun certified-radius (grip need gravity gap absolute budget)
-  "Return the values of GRIP-RADIUS for a grip that holds against GRAVITY."
-  (multiple-value-bind (p frame)
-      (start-proof grip need gravity :supply (copy-seq gravity) :gap gap :absolute absolute)
-    (look-around p)
-    (let* ((proved (prove p budget))
-           (worst (out-of-frame frame (p-worst p)))
-           (worst (scaled worst (needed-size need worst)))
-           (upper (+ (grip-power grip worst (make-six)) (row-dot gravity 0 worst)))
-           (upper (if (<= upper +nothing+) 0d0 upper)))
-      (values upper (and proved (min upper (p-goal p))) worst (p-evaluations p)))))
+(defun certified-radius (grip need gravity p frame budget)
+  "Return the values of GRIP-RADIUS for a grip that holds against GRAVITY; P is the proof, in
+FRAME."
+  (look-around p)
+  (let* ((proved (prove p budget))
+         (worst (out-of-frame frame (p-worst p)))
+         (worst (scaled worst (needed-size need worst)))
+         (upper (+ (grip-power grip worst (make-six)) (row-dot gravity 0 worst)))
+         (upper (if (<= upper +nothing+) 0d0 upper)))
+    (values upper (and proved (min upper (p-goal p))) worst
+            (+ (p-evaluations p) (f-evaluations (p-finder p))))))
 
 (defun grip-radius (grip need gravity &optional (gap 0.01d0) (absolute 0.002d0) (budget 100000))
   "Return the exact force radius of GRIP, between two numbers: see EXACT-RADIUS, whose values these
@@ -55,16 +52,18 @@ above 0, and GRAVITY are sixes, NEED without signs."
   (declare (type grip grip) (type six need gravity) (type double-float gap absolute)
            (type (and fixnum (integer 0)) budget))
   (without-float-traps
-    (multiple-value-bind (holds witness)
-        (if (needs-nothing-p gravity) t (grip-holds-p grip gravity))
-      (if holds
-          (certified-radius grip need gravity gap absolute budget)
-          (cant-hold grip gravity witness)))))
+    (multiple-value-bind (p frame)
+        (start-proof grip need gravity :supply (copy-seq gravity) :gap gap :absolute absolute)
+      (let ((finder (p-finder p)))
+        (if (or (needs-nothing-p gravity)
+                (reaches-p finder (opposite (p-supply p))))
+            (certified-radius grip need gravity p frame budget)
+            (cant-hold grip gravity (out-of-frame frame (f-q finder))))))))
 
 (defun grip-squeeze (grip need gravity &optional (gap 0.01d0) (budget 100000))
   "Return the least cap on each finger's force with which GRIP does the task NEED and holds against
 GRAVITY: a cap that surely does, at most 1/(1-GAP) times one below which none does, the second
-value. Both are NIL if no cap does, the first if BUDGET boxes did not do for the proof."
+value.  Both are NIL if no cap does, the first if BUDGET boxes did not do for the proof."
   (declare (type grip grip) (type six need gravity) (type double-float gap)
            (type (and fixnum (integer 0)) budget))
   (without-float-traps

@@ -30,8 +30,8 @@ EXACT-RADIUS; or NIL."
           finally (return grasps))))
 
 (defun radius-figures (grasp times)
-  "Return the least seconds of TIMES certificates of GRASP, how often the support function was computed,
-and true if it is certified."
+  "Return the least seconds of TIMES certificates of GRASP, how often the support function was
+computed, and true if it is certified."
   (destructuring-bind (contacts u v need gravity) grasp
     (let ((grip (supergrip-statics:make-grip (length contacts) u v)))
       (loop for (place normal) in contacts
