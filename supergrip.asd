@@ -35,10 +35,12 @@
                              (:file "try-and-keep")
                              (:file "knowledge")
                              (:file "plan")
-                             (:file "candidate")))
+                             (:file "candidate")
+                             (:file "exact")))
                (:module "why"
                 :serial t
                 :components ((:file "answers")
+                             (:file "motions")
                              (:file "false-conditions")
                              (:file "failures")
                              (:file "derivation")

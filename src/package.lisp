@@ -12,7 +12,9 @@
   (:use :cl :supergrip-data :supergrip-chainer :supergrip-words)
   (:shadow #:assertions)
   (:import-from :supergrip-statics #:exact-radius #:holds-p #:contact-forces #:wrench-entries
-                #:least-squeeze #:least-friction #:sure-radius #:sure)
+                #:least-squeeze #:least-friction #:sure-radius #:sure #:make-grip #:set-finger
+                #:grip-power #:grip-radius #:grip-holds-p #:grip-closed-p #:grip-squeeze
+                #:grip-least-friction #:grip-entry)
   (:implement :supergrip :supergrip-data :supergrip-chainer)
   (:lock t)
   (:documentation "An expert system that chooses the best grasp of a three-fingered gripper on a
@@ -60,7 +62,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:*knowledge* #:load-knowledge #:knowledge #:knowledge-rules #:knowledge-grasps
    #:declared-inputs #:knowledge-gripper #:knowledge-warnings #:knowledge-rulebase #:grasp-name #:grasp-form
    ;; plans
-   #:plan #:*gamma* #:plan-box #:plan-knowledge #:plan-gamma #:plan-verdict #:plan-reason
+   #:plan #:*gamma* #:plan-box #:plan-knowledge #:plan-gamma #:plan-index #:plan-verdict #:plan-reason
    #:plan-best #:plan-candidates #:plan-possible #:plan-rejected #:plan-log #:plan-assertions
    #:plan-grasp #:plan-matching #:plan-quality #:plan-stop #:plan-memory #:plan-events
    #:write-transcript
@@ -71,6 +73,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-offset #:candidate-contacts #:candidate-approach
    #:candidate-wrench #:candidate-twist #:candidate-sure #:candidate-failure
    #:candidate-palm #:candidate-load #:candidate-force-need #:candidate-velocity-need
+   #:candidate-bound-p #:candidate-exact-radius #:candidate-squeeze #:candidate-friction-margin
    #:try-grasp
    ;; what contacts can really do
    #:exact-radius #:holds-p #:contact-forces #:wrench-entries #:least-squeeze #:least-friction

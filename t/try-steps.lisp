@@ -8,7 +8,7 @@
     (supergrip::define-step warmth :cold (candidate workspace)
       (not (equal "PINCH-3-PARALLEL" (supergrip:candidate-grasp candidate))))
     (is (equal "it fails the step COLD"
-               (supergrip::failure-text :cold nil nil))
+               (supergrip::failure-text :cold nil nil nil))
         "what no row says")
     (supergrip::define-failure :cold (candidate workspace)
       :why (format nil "~a has cold fingers" (supergrip:candidate-grasp candidate))

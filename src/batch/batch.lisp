@@ -5,7 +5,7 @@
 
 (in-package :supergrip)
 
-(defstruct (batch (:constructor make-batch (knowledge gamma notation format output)))
+(defstruct (batch (:constructor make-batch (knowledge gamma index notation format output)))
   "What records are made with, and how many were.  NOTATION is :LISP, :JSON or NIL, to tell from
 the input; FORMAT is :TRACE, :LISP, :JSON or NIL, as the input.  BAD counts the error records;
 BROKEN is true if one of them was an internal error.  LAST, after an error record, whose box may go
@@ -13,6 +13,7 @@ on, is the line where it ended, or :REST once it did go on.  PLANS holds the pla
 latest first, if KEEP is true."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
+  (index :paper :type keyword)
   notation format
   (output nil :type output)
   (done 0 :type fixnum)
@@ -231,7 +232,8 @@ COLUMN, and ends in the line END."
 and whether they are ours."
   (handler-case
       (let ((plan (plan (canonical-box description nil line)
-                        :knowledge (batch-knowledge batch) :gamma (batch-gamma batch))))
+                        :knowledge (batch-knowledge batch) :gamma (batch-gamma batch)
+                        :index (batch-index batch))))
         (when (batch-keep batch)
           (push plan (batch-plans batch)))
         (if (eq (batch-format batch) :trace)
@@ -255,7 +257,8 @@ and whether they are ours."
       (format nil "~{(BAD BOX: ~a)~%~}--END--~%"
               (loop for problem in problems
                     collect (visible-text (problem-reason problem))))
-      (error-record problems :name (description-name description) :line line)))
+      (error-record problems :name (description-name description) :line line
+                             :index (batch-index batch))))
 
 (defun description-name (description)
   "Return the name in DESCRIPTION, which need not be valid, or NIL."

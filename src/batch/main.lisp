@@ -202,6 +202,7 @@ report of what could not be drawn or written."
           ((and (getf options :report) (not (reportable-p (getf options :report)))) 74)
           (t
            (let ((batch (make-batch knowledge (check-gamma (getf options :gamma *gamma*))
+                                    (getf options :index :paper)
                                     (getf options :input) (getf options :format)
                                     (make-output 1)))
                  (*depth-limit* (getf options :depth-limit *depth-limit*))

@@ -17,6 +17,8 @@ record a box to standard output, in the same order: the best of seven grasps for
   --rules FILE              rules to use instead of those that are built in
   --grasps FILE             grasps and gripper to use instead of those that are built in
   --gamma X                 from 0, forces alone, to 1, velocities alone; 0.5 by default
+  --index paper|exact       what grasps are rated by: the paper's index, or what their contacts can
+                            really do, proved, which takes a thousand times as long
   --report DIR              also write a page for each box into DIR, and an index with thumbnails;
                             needs cl-who (docs/pictures.md), and keeps all plans till the end
   --check                   only read the rules and grasps, and say what is wrong with them
@@ -64,6 +66,7 @@ Examples:
     ("--rules" :rules :file)
     ("--grasps" :grasps :file)
     ("--gamma" :gamma :gamma)
+    ("--index" :index :choice "paper" "exact")
     ("--depth-limit" :depth-limit :count 1000)
     ("--record-limit" :record-limit :count 1000000)
     ("--number-limit" :number-limit :count 1000)

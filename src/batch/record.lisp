@@ -15,7 +15,10 @@
 :CONTACTS  a list of (:SURFACE face :POSITION along X Y Z, in cm, :NORMAL inward unit vector).
 :TRIED :POSSIBLE  how many candidates were tried, and how many of them are possible.
 :REASON  why the box can't be grasped.
-:SURE  the sure radius of the best grasp, CANDIDATE-SURE; NIL where the task needs no force."
+:SURE  the sure radius of the best grasp, CANDIDATE-SURE; NIL where the task needs no force.
+In exact mode also, of the best grasp (see src/plan/exact.lisp):
+:BETA  (LOWER UPPER), the exact radius, LOWER certified or NIL; NIL where the task needs no force.
+:SQUEEZE :FRICTION-MARGIN  CANDIDATE-SQUEEZE, CANDIDATE-FRICTION-MARGIN."
   (let ((best (plan-best plan))
         (candidates (plan-candidates plan)))
     (list* :name (box-name (plan-box plan))
@@ -25,7 +28,22 @@
                    (list :tried (length candidates)
                          :possible (count :possible candidates :key #'%candidate-outcome)
                          :reason (plan-reason plan)
-                         :sure (and best (candidate-sure best plan)))))))
+                         :sure (and best (candidate-sure best plan)))
+                   (index-part (plan-index plan) best plan)))))
+
+(defgeneric index-part (index best plan)
+  (:documentation "Return the part of a record that only INDEX, a keyword, has; of the grasp BEST of
+PLAN, or of none.")
+  (:method (index best plan)
+    (declare (ignore index best plan))
+    '()))
+
+(defmethod index-part ((index (eql :exact)) best plan)
+  (list :beta (and best
+                   (multiple-value-bind (upper lower) (candidate-exact-radius best plan)
+                     (and upper (list lower upper))))
+        :squeeze (and best (candidate-squeeze best plan))
+        :friction-margin (and best (candidate-friction-margin best plan))))
 
 (defun grasp-part (best plan)
   "Return the part of a record that tells of the grasp BEST of PLAN, or of none."
@@ -43,7 +61,7 @@
             :approach (candidate-approach best)
             :contacts (candidate-contacts best plan))))
 
-(defun error-record (problems &key name line)
+(defun error-record (problems &key name line (index :paper))
   "Return the record of a box that can't be used because of PROBLEMS: as PLAN-RECORD gives it, with
 :STATUS \"error\", the problems in one :REASON, and each in :PROBLEMS as (:LINE l :COLUMN c :TEXT t)."
   (list* :name name
@@ -57,7 +75,8 @@
                                        collect (list :line (problem-line problem)
                                                      :column (problem-column problem)
                                                      :text (problem-text problem)))
-                       :sure nil))))
+                       :sure nil)
+                 (index-part index nil nil))))
 
 (defun problem-reason (problem)
   "Return PROBLEM as line LINE, column COLUMN: TEXT."

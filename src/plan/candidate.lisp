@@ -73,7 +73,7 @@ figures."
     `(without-float-traps
        (let* ((,the-plan (need-plan ,plan))
               (,memory (start-plan (plan-box ,the-plan) (plan-knowledge ,the-plan)
-                                   (plan-gamma ,the-plan)))
+                                   (plan-gamma ,the-plan) (plan-index ,the-plan)))
               (,workspace (memory-client ,memory)))
          (multiple-value-prog1 (progn ,@body)
            (give-back ,memory (plan-knowledge ,the-plan)))))))
@@ -90,14 +90,18 @@ name of a box face, :POSITION and :NORMAL, lists along X Y Z in the box frame at
 positions in cm, the normals point inward."
   (with-replay (workspace candidate plan)
     (execute (grasp-positions (%candidate-grasp candidate)) (workspace-registers workspace))
-    (loop with registers = (workspace-registers workspace)
-          with matching = (%candidate-matching candidate)
-          for (grasp-face p q) in (grasp-contacts (%candidate-grasp candidate))
-          for face = (svref (matching-faces matching) grasp-face)
-          collect (list :surface (face-name face)
-                        :position (contact-position workspace matching grasp-face
-                                                    (aref registers p) (aref registers q))
-                        :normal (unit-vector face -1)))))
+    (workspace-contacts candidate workspace)))
+
+(defun workspace-contacts (candidate workspace)
+  "Return what CANDIDATE-CONTACTS does; WORKSPACE holds where the fingers of CANDIDATE are."
+  (loop with registers = (workspace-registers workspace)
+        with matching = (%candidate-matching candidate)
+        for (grasp-face p q) in (grasp-contacts (%candidate-grasp candidate))
+        for face = (svref (matching-faces matching) grasp-face)
+        collect (list :surface (face-name face)
+                      :position (contact-position workspace matching grasp-face
+                                                  (aref registers p) (aref registers q))
+                      :normal (unit-vector face -1))))
 
 (defun contact-position (workspace matching grasp-face p q)
   "Return the place, along X Y Z, of a finger on GRASP-FACE at P, Q along its two other axes."

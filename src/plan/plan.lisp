@@ -72,6 +72,7 @@ more."
   (box nil :type box :read-only t)
   (knowledge nil :type knowledge :read-only t)
   (gamma 0.5d0 :type double-float :read-only t)
+  (index :paper :type keyword :read-only t)
   (stop nil :read-only t)
   (best nil :read-only t)
   (entries '() :type list :read-only t) ; see DO-LOG
@@ -100,16 +101,18 @@ EVENT-FACT)."
 (defun need-plan (plan)
   (if (plan-p plan) plan (error 'no-plan-error :given plan)))
 
-(defun plan (box &key (knowledge *knowledge*) (gamma *gamma*))
+(defun plan (box &key (knowledge *knowledge*) (gamma *gamma*) (index :paper))
   "Return the plan for BOX, a box or a description of one (see PARSE-BOX).
 KNOWLEDGE holds the rules and grasps to use, GAMMA from 0 to 1 weighs velocities against forces.
+INDEX is :PAPER, or :EXACT: then closure, lifting and u_w are what the contacts can really do, proved
+(see docs/physics.md).
 A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from several threads."
   (with-plain-floats
-    (let ((memory (start-plan box knowledge gamma)))
+    (let ((memory (start-plan box knowledge gamma index)))
       (finish-plan memory knowledge (run-rules (knowledge-rulebase knowledge) memory)))))
 
 (defun try-grasp (name &rest arguments)
-  "(TRY-GRASP NAME [BOX] &KEY KNOWLEDGE GAMMA): return a plan for BOX, by default what (setq box ...)
+  "(TRY-GRASP NAME [BOX] &KEY KNOWLEDGE GAMMA INDEX): return a plan for BOX, by default what (setq box ...)
 gave, in which no rule has run: the grasp NAME, a string or a symbol, was tried in all matchings that
 use no constrained face, equivalent ones once.  Other arguments as for PLAN."
   (if (or (null arguments) (keywordp (first arguments)))
@@ -119,12 +122,12 @@ use no constrained face, equivalent ones once.  Other arguments as for PLAN."
 (defun try-only (name box &rest arguments)
   (apply #'try-without-rules (list (cons name +all-matchings+)) box arguments))
 
-(defun try-without-rules (tries box &key (knowledge *knowledge*) (gamma *gamma*))
+(defun try-without-rules (tries box &key (knowledge *knowledge*) (gamma *gamma*) (index :paper))
   "Return a plan for BOX in which no rule has run.  TRIES is a list of (NAME . SET): the grasp NAME was
 tried in the matchings SET, but for those that use a constrained face, equivalent ones once."
   (with-plain-floats
     (let ((tries (loop for (name . set) in tries collect (cons (need-grasp name knowledge) set)))
-          (memory (start-plan box knowledge gamma)))
+          (memory (start-plan box knowledge gamma index)))
       (loop for (grasp . set) in tries do (try-matchings memory grasp set))
       (finish-plan memory knowledge nil
                    (loop for (grasp . set) in tries collect (cons (grasp-name grasp) set))))))
@@ -151,22 +154,23 @@ tried in the matchings SET, but for those that use a constrained face, equivalen
   "Return a memory for the rules of KNOWLEDGE, whose client is an workspace with its grasps."
   (make-memory (knowledge-rulebase knowledge) (make-workspace (knowledge-graspbase knowledge))))
 
-(defun prepare-memory (memory box knowledge gamma)
+(defun prepare-memory (memory box knowledge gamma &optional (index (first *indices*)))
   "Make MEMORY, an empty one, ready for a plan for BOX: it holds the preliminary assertions and the facts
 of BOX, and its workspace has tried nothing yet.  Return it."
-  (start-workspace (memory-client memory) box gamma)
+  (start-workspace (memory-client memory) box gamma index)
   (assert-box memory (knowledge-inputs knowledge) box)
   (when (%box-facts box)
     (assert-facts memory box (knowledge-rulebase knowledge)
                   (or (data-file-name (knowledge-rule-file knowledge)) "the rules")))
   memory)
 
-(defun start-plan (box knowledge gamma)
+(defun start-plan (box knowledge gamma &optional (index :paper))
   "Return a memory ready for a plan for BOX: one that another plan gave back, or a new one."
   (let ((box (if (box-p box) box (parse-box box)))
-        (gamma (check-gamma gamma)))
+        (gamma (check-gamma gamma))
+        (index (index-named index)))
     (prepare-memory (or (take-from (knowledge-spare knowledge)) (new-memory knowledge))
-                    box knowledge gamma)))
+                    box knowledge gamma index)))
 
 (defun give-back (memory knowledge)
   "Let another plan use MEMORY."
@@ -175,6 +179,12 @@ of BOX, and its workspace has tried nothing yet.  Return it."
         (workspace-best (memory-client memory)) nil)
   (give-to (knowledge-spare knowledge) memory))
 
+(defun best-so-far (memory)
+  "Return the best of the candidates that the log of MEMORY, the latest first, holds, or NIL."
+  (let ((workspace (memory-client memory)))
+    (declare (type workspace workspace))
+    (funcall (index-choose (workspace-index workspace)) workspace (memory-log memory))))
+
 (defun finish-plan (memory knowledge stop &optional tries)
   "Return the plan that MEMORY holds, of what TRIES says if no rule has run, and give MEMORY back.
 Rules that end without KEEP or CANT keep the best."
@@ -182,8 +192,9 @@ Rules that end without KEEP or CANT keep the best."
     (declare (type workspace workspace))
     (prog1 (%make-plan :box (workspace-box workspace) :knowledge knowledge
                        :gamma (workspace-gamma workspace) :stop stop :tries tries
+                       :index (index-name (workspace-index workspace))
                        :best (and (not (and stop (eq (stop-verdict stop) :cant)))
-                                  (workspace-best workspace))
+                                  (best-so-far memory))
                        :entries (nreverse (memory-log memory)) :facts (save-facts memory))
       (give-back memory knowledge))))
 

@@ -2,25 +2,53 @@
 ;;;;
 ;;;; Grasping conditions, offset, positions of the fingers, wrench and twist rotated to X Y Z,
 ;;;; lifting, quality.  A candidate that passes is possible; one that fails records the step that it failed.
+;;;; An index says by what a grasp is rated: its last steps are its own.
 
 (in-package :supergrip)
 
 (defstruct (candidate (:constructor make-candidate (grasp matching)) (:copier nil)
                       (:conc-name %candidate-))
   "A grasp in one matching.  OUTCOME is :POSSIBLE or the step that failed: :CONDITIONS, :OFFSET,
-:FINGERS, :OPEN or :LIFTING.  X Y Z is the grasp centre from the box centre, in cm."
+:FINGERS, :OPEN or :LIFTING.  X Y Z is the grasp centre from the box centre, in cm.  BOUND is true
+if QUALITY and FORCE-RADIUS are no more than upper bounds."
   (grasp nil :type grasp)
   (matching nil :type matching)
   (outcome :conditions :type symbol)
   (quality 0d0 :type double-float)
   (force-radius 0d0 :type double-float) (velocity-radius 0d0 :type double-float)
   (force-limit -1 :type (integer -1 5)) (velocity-limit -1 :type (integer -1 5))
-  (x 0d0 :type double-float) (y 0d0 :type double-float) (z 0d0 :type double-float))
+  (x 0d0 :type double-float) (y 0d0 :type double-float) (z 0d0 :type double-float)
+  (strength nil)                        ; see plan/exact.lisp
+  (bound nil :type boolean))
 
-(define-printing (candidate candidate) "~a (~{~a~^ ~}) ~:[~a~;Q=~*~,3f~]"
+(defun quality-sign (candidate)
+  "Return the sign between Q and the quality of CANDIDATE: = or, for a bound, <=."
+  (if (%candidate-bound candidate) "<=" "="))
+
+(define-printing (candidate candidate) "~a (~{~a~^ ~}) ~:[~a~;Q~*~a~,3f~]"
   (grasp-name (%candidate-grasp candidate)) (matching-names (%candidate-matching candidate))
   (eq (%candidate-outcome candidate) :possible) (%candidate-outcome candidate)
-  (%candidate-quality candidate))
+  (quality-sign candidate) (%candidate-quality candidate))
+
+(defstruct (index (:constructor make-index (name same choose)))
+  "What grasps are rated by.  NAME is a keyword.  SAME is a function of a grasp: for each matching, the
+set of those that the index does not tell apart.  CHOOSE is a function of a workspace and a log: the
+best candidate, or NIL."
+  (name nil :type keyword :read-only t)
+  (same nil :type function :read-only t)
+  (choose nil :type function :read-only t))
+
+(defvar *indices*
+  (list (make-index :paper #'grasp-same (lambda (workspace log)
+                                          (declare (ignore log))
+                                          (workspace-best workspace))))
+  "All indices; the first is used by default.")
+
+(defun index-named (name)
+  "Return the index NAME, a keyword, or signal an ARGUMENT-ERROR."
+  (or (find name *indices* :key #'index-name)
+      (refuse-argument "index is ~a; it is ~{~s~^ or ~}" (form-text name)
+                       (mapcar #'index-name *indices*))))
 
 (defun make-six () (make-array 6 :element-type 'double-float :initial-element 0d0))
 (defun make-three () (make-array 3 :element-type 'double-float :initial-element 0d0))
@@ -31,6 +59,7 @@
 frame: WRENCH and TWIST what the grasp can do, LOAD what gravity asks, SPARE what it leaves of
 WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   (box nil :type (or null box)) (gamma 0.5d0 :type double-float)
+  (index (first *indices*) :type index) (steps '() :type list)
   (registers nil :type registers)
   (tried nil :type (simple-array (unsigned-byte 24) (*)))
   (best nil)
@@ -48,11 +77,13 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
                    (make-array (length (graspbase-grasps graspbase))
                                :element-type '(unsigned-byte 24))))
 
-(defun start-workspace (workspace box gamma)
+(defun start-workspace (workspace box gamma &optional (index (first *indices*)))
   "Make WORKSPACE, which may have been used, one at BOX with nothing tried yet.  Return it."
   (declare (type workspace workspace) (type box box))
   (setf (workspace-box workspace) box
         (workspace-gamma workspace) gamma
+        (workspace-index workspace) index
+        (workspace-steps workspace) (steps-of (index-name index))
         (workspace-best workspace) nil
         (aref (workspace-registers workspace) +u+) (%box-friction box)
         (aref (workspace-registers workspace) +v+) (%box-soft-friction box))
@@ -66,26 +97,39 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
 the workspace, returns true if it passes.  NAME is a symbol."
   (outcome nil :type keyword) (name nil :type symbol) (test nil :type function))
 
-(defvar *steps* '() "The steps that DEFINE-STEP has defined, in the order in which they are taken.")
+(defvar *steps* '((:paper) (:exact))
+  "For each index, by its name, the steps that DEFINE-STEP has defined, in the order in which they are
+taken.")
 
-(defun add-try-step (step)
-  (setf *steps* (with-row step *steps* #'try-step-name)))
+(declaim (inline steps-of))
+(defun steps-of (index)
+  (rest (assoc index *steps* :test #'eq)))
+
+(defun add-try-step (step &optional index)
+  "Make STEP one of the steps of INDEX, a keyword, or of all."
+  (setf *steps* (loop for (name . steps) in *steps*
+                      collect (cons name (if (member index (list nil name))
+                                             (with-row step steps #'try-step-name)
+                                             steps)))))
 
 (defmacro define-step (name outcome (candidate workspace) &body body)
-  "Define the step NAME of TRY, the last one if it is new.  BODY is true if CANDIDATE passes; it leaves
-in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keyword."
-  `(add-try-step (make-try-step ,outcome ',name
-                                (lambda (,candidate ,workspace)
-                                  (declare (type candidate ,candidate)
-                                           (type workspace ,workspace)
-                                           (ignorable ,candidate ,workspace))
-                                  ,@body))))
+  "Define the step NAME of TRY, the last one if it is new; NAME may be (NAME INDEX), if only that index,
+a keyword, takes it.  BODY is true if CANDIDATE passes; it leaves in WORKSPACE what later steps need.
+A candidate that fails has OUTCOME, a keyword."
+  (destructuring-bind (name &optional index) (if (listp name) name (list name))
+    `(add-try-step (make-try-step ,outcome ',name
+                                  (lambda (,candidate ,workspace)
+                                    (declare (type candidate ,candidate)
+                                             (type workspace ,workspace)
+                                             (ignorable ,candidate ,workspace))
+                                    ,@body))
+                   ,index)))
 
 (defun run-steps (workspace candidate)
   "Take CANDIDATE through the steps; its OUTCOME is the one it failed, or :POSSIBLE."
   (declare (type candidate candidate))
   (handler-case
-      (loop for step of-type try-step in *steps*
+      (loop for step of-type try-step in (workspace-steps workspace)
             do (setf (%candidate-outcome candidate) (try-step-outcome step))
             always (funcall (try-step-test step) candidate workspace)
             finally (setf (%candidate-outcome candidate) :possible))
@@ -95,7 +139,10 @@ in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keywo
 
 (defun step-outcomes ()
   "Return what candidates may have, in the order of the steps; the last is :POSSIBLE."
-  (append (remove-duplicates (mapcar #'try-step-outcome *steps*) :from-end t) '(:possible)))
+  (append (remove-duplicates (loop for (nil . steps) in *steps*
+                                   append (mapcar #'try-step-outcome steps))
+                             :from-end t)
+          '(:possible)))
 
 ;;; The rows
 
@@ -153,21 +200,24 @@ in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keywo
                         (inside-p (+ (aref centre axis) (aref registers register))
                                   (aref lengths axis)))))))
 
-(define-step closure :open (candidate workspace)
-  (let ((grasp (%candidate-grasp candidate))
-        (axes (matching-axes (%candidate-matching candidate)))
-        (registers (workspace-registers workspace)))
-    (flet ((turn (program out least)
-             (declare (type program program) (type six out) (double-float least))
-             (and (execute program registers)
-                  (loop for axis across axes
-                        for register across (program-results program)
-                        always (let ((entry (aref registers register)))
-                                 (when (> entry least)
-                                   (setf (aref out axis) entry)
-                                   t))))))
-      (and (turn (grasp-wrench grasp) (workspace-wrench workspace) 0d0)
-           (turn (grasp-twist grasp) (workspace-twist workspace) -1d-300)))))
+(declaim (inline turn-entries))
+(defun turn-entries (program candidate workspace out least)
+  "Put the six values of PROGRAM, on the axes of CANDIDATE, into OUT.  NIL if one is not above LEAST."
+  (declare (type program program) (type workspace workspace) (type six out) (double-float least))
+  (let ((registers (workspace-registers workspace)))
+    (and (execute program registers)
+         (loop for axis across (matching-axes (%candidate-matching candidate))
+               for register across (program-results program)
+               always (let ((entry (aref registers register)))
+                        (when (> entry least)
+                          (setf (aref out axis) entry)
+                          t))))))
+
+(define-step (closure :paper) :open (candidate workspace)
+  (let ((grasp (%candidate-grasp candidate)))
+    (and (turn-entries (grasp-wrench grasp) candidate workspace (workspace-wrench workspace) 0d0)
+         (turn-entries (grasp-twist grasp) candidate workspace (workspace-twist workspace)
+                       -1d-300))))
 
 (defun turn-centre (workspace matching candidate)
   "Put the grasp centre into CANDIDATE, in the box frame."
@@ -183,7 +233,7 @@ in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keywo
     (dotimes (i 3)
       (setf (aref offset i) (abs (aref offset i))))))
 
-(define-step lifting :lifting (candidate workspace)
+(define-step (lifting :paper) :lifting (candidate workspace)
   ;; Each axis may be loaded by a share of what the grasp bears there alone; the shares may not
   ;; exceed 1 together, since the axes use the same friction.  Sound: the six capacities, both ways,
   ;; span a cross-polytope of wrenches that the contacts can exert.
@@ -196,7 +246,7 @@ in WORKSPACE what later steps need.  A candidate that fails has OUTCOME, a keywo
     (dotimes (axis 6 (<= shares 1d0))
       (incf shares (/ (aref load axis) (aref wrench axis))))))
 
-(define-step quality :open (candidate workspace)
+(define-step (quality :paper) :open (candidate workspace)
   (let ((box (workspace-box workspace))
         (offset (workspace-offset workspace))
         (spare (workspace-spare workspace)))

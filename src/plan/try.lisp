@@ -27,15 +27,17 @@ before.  The log of MEMORY gets the candidates."
   (let* ((workspace (memory-client memory))
          (tried (workspace-tried workspace))
          (index (grasp-index grasp))
+         (same (funcall (index-same (workspace-index workspace)) grasp))
          (open (logand suggested
                        (aref (grasp-usable grasp) (%box-constrained (workspace-box workspace))))))
-    (declare (type workspace workspace) (type matching-set open))
+    (declare (type workspace workspace) (type matching-set open)
+             (type (simple-array (unsigned-byte 24) (*)) same))
     (loop
       (let ((left (logandc2 open (aref tried index))))
         (declare (type matching-set left))
         (when (zerop left) (return))
         (let ((matching (1- (integer-length (logand left (- left))))))
-          (setf (aref tried index) (logior (aref tried index) (aref (grasp-same grasp) matching)))
+          (setf (aref tried index) (logior (aref tried index) (aref same matching)))
           (push (try-matching workspace grasp (svref +matchings+ matching))
                 (memory-log memory)))))))
 

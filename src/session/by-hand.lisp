@@ -28,11 +28,12 @@ any; NIL allows all."
        (remove-if-not (lambda (name) (find-grasp (knowledge-graspbase knowledge) name))
                       (plan-tries *plan*) :key #'car)))
 
-(defun put-try (grasp set tries)
-  "Return TRIES with GRASP in the matchings SET as the last, and no equal of these before it."
-  (let ((same (loop for matching below (length +matchings+)
+(defun put-try (grasp set tries index)
+  "Return TRIES with GRASP in the matchings SET as the last, and no equal of these by INDEX before it."
+  (let ((same (loop with same = (funcall (index-same (index-named index)) grasp)
+                    for matching below (length +matchings+)
                     when (logbitp matching set)
-                      collect (aref (grasp-same grasp) matching))))
+                      collect (aref same matching))))
     (append (loop for (name . earlier) in tries
                   for left = (if (string= name (grasp-name grasp))
                                  (logandc2 earlier (reduce #'logior same))
@@ -41,7 +42,7 @@ any; NIL allows all."
             (list (cons (grasp-name grasp) set)))))
 
 (defun try (name &rest arguments)
-  "(TRY NAME [SUGGESTION] &KEY BOX KNOWLEDGE GAMMA STREAM): try the grasp NAME on the box, without
+  "(TRY NAME [SUGGESTION] &KEY BOX KNOWLEDGE GAMMA INDEX STREAM): try the grasp NAME on the box, without
 rules, in all matchings that use no constrained face, equivalent ones once.  SUGGESTION leaves only
 the matchings that have its faces: six for N1 N2 O1 O2 A1 A2, ? for any, as (? X2 Y2 Y1 ? Z1).
 Print the paper's line for each that is possible, and return all that was tried, candidates.
@@ -56,10 +57,11 @@ Source: the paper, Low-level System."
           (values nil arguments)
           (values (first arguments) (rest arguments)))
     (apply #'try-by-hand name suggestion
-           (checked-keys keys 'try '(:box :knowledge :gamma :stream)))))
+           (checked-keys keys 'try '(:box :knowledge :gamma :index :stream)))))
 
 (defun try-by-hand (name suggestion &key ((:box given) *box*) (knowledge *knowledge*)
-                                      (gamma *gamma*) (stream *standard-output*))
+                                      (gamma *gamma*) (index :paper)
+                                      (stream *standard-output*))
   "Do what TRY does."
   (let* ((box (cond ((null given) (error 'no-box-error))
                     ((box-p given) given)
@@ -67,8 +69,8 @@ Source: the paper, Low-level System."
          (grasp (need-grasp name (check-knowledge-argument knowledge)))
          (set (suggested-set suggestion))
          (stream (output-stream stream))
-         (plan (try-without-rules (put-try grasp set (tried-before box knowledge)) box
-                                  :knowledge knowledge :gamma gamma))
+         (plan (try-without-rules (put-try grasp set (tried-before box knowledge) index)
+                                  box :knowledge knowledge :gamma gamma :index index))
          (tried (remove-if-not (lambda (candidate)
                                  (logbitp (matching-index (%candidate-matching candidate)) set))
                                (candidates-of plan grasp))))

@@ -35,7 +35,8 @@ SITUATIONS alike, and WHAT is :CANT (whether, and in which words, rules refuse t
       (some (lambda (clause) (and (consp clause) (namep (first clause)) (key-named (first clause))))
             object)))
 
-(defun compare-knowledge (old new boxes &key (gamma *gamma*) (stream *standard-output*))
+(defun compare-knowledge (old new boxes &key (gamma *gamma*) (index :paper)
+                                          (stream *standard-output*))
   "Plan each of BOXES, or the one box, with the knowledge OLD and with NEW; write what differs to
 STREAM (NIL: do not) and return a list of DIFFERENCEs, in the order of BOXES.  A fact of a box that
 only one of the two declares is left out for the other.
@@ -47,24 +48,25 @@ is a DIFFERENCE for each kind of change, with the smallest box that shows it."
   (cond ((eq boxes :situations)
          (compare-situations old new gamma stream))
         ((or (box-p boxes) (proper-list-p boxes))
-         (compare-boxes old new (if (one-box-p boxes) (list boxes) boxes) gamma stream))
+         (compare-boxes old new (if (one-box-p boxes) (list boxes) boxes) gamma index stream))
         (t (refuse-argument "~a is not a list of boxes" (form-text boxes)))))
 
-(defun make-plans-difference (box what old new gamma &optional situations)
+(defun make-plans-difference (box what old new gamma &optional situations (index :paper))
   "Return the DIFFERENCE for BOX between the plans with the knowledge OLD and NEW, or NIL if WHAT, a
 function of the two plans, returns that."
-  (let* ((old-plan (plan (box-known-to old box new) :knowledge old :gamma gamma))
-         (new-plan (plan (box-known-to new box old) :knowledge new :gamma gamma))
+  (let* ((old-plan (plan (box-known-to old box new) :knowledge old :gamma gamma :index index))
+         (new-plan (plan (box-known-to new box old) :knowledge new :gamma gamma :index index))
          (what (funcall what old-plan new-plan)))
     (and what
          (make-difference :box box :what what :old old-plan :new new-plan
                           :situations situations))))
 
-(defun compare-boxes (old new boxes gamma stream)
+(defun compare-boxes (old new boxes gamma index stream)
   (let ((differences
           (loop for given in boxes
                 for box = (if (box-p given) given (parse-box given))
-                for difference = (make-plans-difference box #'plan-difference old new gamma)
+                for difference = (make-plans-difference box #'plan-difference old new gamma
+                                                             '() index)
                 when difference collect difference)))
     (when stream
       (dolist (difference differences)

@@ -18,10 +18,10 @@ and return the plan, which *PLAN* also holds.
 
 ARGUMENTS are keys and values: :BOX a box or a description of one, by default what (setq box ...)
 gave, which may also stand first, without its key; :KNOWLEDGE, by default what is in force; :GAMMA
-weighs velocities (1) against forces (0); :STREAM is where to print, NIL for not at all; :TRACE says
+weighs velocities (1) against forces (0); :INDEX is :PAPER or :EXACT (see PLAN); :STREAM is where to print, NIL for not at all; :TRACE says
 how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger before each rule."
   (apply #'chain-box (checked-keys (if (oddp (length arguments)) (cons :box arguments) arguments)
-                                   'forward-chain '(:box :knowledge :gamma :stream :trace :step))))
+                                   'forward-chain '(:box :knowledge :gamma :index :stream :trace :step))))
 
 (defun checked-keys (arguments function keys)
   "Return ARGUMENTS, keys and values for FUNCTION, if each key is one of KEYS."
@@ -34,7 +34,7 @@ how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger bef
   arguments)
 
 (defun chain-box (&key ((:box given) *box*) (knowledge *knowledge*) (gamma *gamma*)
-                    (stream *standard-output*) ((:trace level) *trace-level*) step)
+                    (index :paper) (stream *standard-output*) ((:trace level) *trace-level*) step)
   "Do what FORWARD-CHAIN does."
   (unless given
     (error 'no-box-error))
@@ -42,12 +42,12 @@ how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger bef
         (knowledge (check-knowledge-argument knowledge))
         (stream (output-stream stream)))
     (if (or step *traced* *breaks* (> level 1))
-        (setf *plan* (traced-plan given knowledge gamma level step
+        (setf *plan* (traced-plan given knowledge gamma index level step
                                   (if (and stream (or (plusp level) *traced*))
                                       stream
                                       (make-broadcast-stream))))
         (progn
-          (setf *plan* (plan given :knowledge knowledge :gamma gamma))
+          (setf *plan* (plan given :knowledge knowledge :gamma gamma :index index))
           (when (and stream (= level 1))
             (write-transcript *plan* stream))))
     *plan*))

@@ -172,31 +172,35 @@ for."
                                     level (traced-p (rule-name rule)) stream)))
         (:stop nil)))))
 
-(defun observed-plan (box knowledge gamma make-observer &rest arguments)
+(defun observed-plan (box knowledge gamma make-observer &rest arguments &key (index :paper)
+                                                          &allow-other-keys)
   "Return the plan for BOX; its run is watched by what MAKE-OBSERVER returns for the unfinished plan
-and the memory that the rules run on.  RUN-OBSERVED gets ARGUMENTS, too."
+and the memory that the rules run on.  RUN-OBSERVED gets the other ARGUMENTS."
   (with-plain-floats
-    (let* ((memory (start-plan box knowledge gamma))
+    (let* ((memory (start-plan box knowledge gamma index))
            (workspace (memory-client memory))
            (unfinished (%make-plan :box (workspace-box workspace) :knowledge knowledge
-                                   :gamma (workspace-gamma workspace))))
+                                   :gamma (workspace-gamma workspace) :index index)))
       (finish-plan memory knowledge
                    (apply #'run-observed (knowledge-rulebase knowledge) memory
-                          (funcall make-observer unfinished memory) arguments)))))
+                          (funcall make-observer unfinished memory)
+                          (uiop:remove-plist-key :index arguments))))))
 
 (defun plan-in-hand (plan memory rule begun)
   "Return PLAN, unfinished, as it is now on MEMORY: before RULE or, if that has BEGUN, within it."
   (%make-plan :box (plan-box plan) :knowledge (plan-knowledge plan) :gamma (plan-gamma plan)
+              :index (plan-index plan)
               :stop (make-stop :verdict (if begun :within :before) :rule rule)
-              :best (workspace-best (memory-client memory))
+              :best (best-so-far memory)
               :entries (reverse (memory-log memory)) :facts (save-facts memory)))
 
-(defun traced-plan (box knowledge gamma level step stream)
+(defun traced-plan (box knowledge gamma index level step stream)
   "Return the plan for BOX, writing to STREAM what LEVEL and the traced names ask for as it comes."
   (let* ((*stepping* step)
          (plan (observed-plan box knowledge gamma
                               (lambda (plan memory)
-                                (trace-observer plan memory level stream)))))
+                                (trace-observer plan memory level stream))
+                              :index index)))
     (when (plusp level)
       (write-verdict plan stream)
       (format stream "--END--~%"))

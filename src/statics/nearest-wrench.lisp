@@ -10,11 +10,12 @@
 
 (defconstant +close+ 1d-9 "A target that is no farther away, in a round frame, is reached.")
 (defconstant +near+ 1d-7 "So is one that is no farther away where rounding lets it come no closer.")
+(defconstant +little+ 1d-5 "How far a closed grip reaches in a round frame, at least.")
+(defconstant +corners+ 8 "How many wrenches the mixture has at most.")
 (declaim (type six *all-needed*))
 (defvar *all-needed* (map 'six #'identity '(1d0 1d0 1d0 1d0 1d0 1d0))
   "A task with a need along each axis.")
 
-(defconstant +corners+ 8 "How many wrenches the mixture has at most.")
 
 (defstruct (finder (:copier nil) (:conc-name f-))
   "The search for the wrench nearest to TARGET: COUNT to ROWS are the grip's in FRAME.  There are
@@ -224,6 +225,24 @@ motion in which the fingers do less power than gravity takes."
   (multiple-value-bind (holds finder) (grip-reach grip (opposite gravity))
     (values holds
             (and (not holds) (out-of-frame (f-frame finder) (f-q finder))))))
+
+(defun grip-closed-p (grip)
+  "True if GRIP is closed: it can exert a wrench in every direction.  One that reaches less than 1e-5
+as far in one direction as in the mean is not."
+  (declare (type grip grip))
+  (without-float-traps
+    (let ((f (find-in grip)) (nothing (make-six)) (way (make-six)))
+      (flet ((reached-p ()
+               (aim f nothing +little+ way)
+               (reach-p f 0d0 +close+)))
+        ;; Seven ways that positive mixtures make all others of: each axis, and against them all.
+        (no-force f)
+        (and (loop for k below 6
+                   always (progn (fill way 0d0)
+                                 (setf (aref way k) 1d0)
+                                 (reached-p)))
+             (progn (fill way -1d0)
+                    (reached-p)))))))
 
 (defun add-forces (f motion share forces)
   "Add to FORCES, four numbers a finger, SHARE times what the fingers of F do in MOTION: how much

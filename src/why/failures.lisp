@@ -44,33 +44,40 @@ that is beyond an edge of its face, the worst first; :NONE if a form has no valu
        (loop for register across (program-results (grasp-wrench grasp))
              always (> (aref registers register) 0d0))))
 
-(defun closing-friction (grasp registers)
-  "Return the least friction above that in REGISTERS that closes GRASP, or NIL; and the greatest that
-does not."
-  (let ((low (aref registers +u+))
-        (high (max 1d0 (* 2 (aref registers +u+)))))
-    (loop until (or (closed-at-p grasp registers high) (> high 100d0))
+(defun entries-closed-at (candidate workspace)
+  "Return a function of a friction: true if, with it, the WRENCH entries of CANDIDATE close it."
+  (let ((registers (copy-seq (workspace-registers workspace))))
+    (lambda (u) (closed-at-p (%candidate-grasp candidate) registers u))))
+
+(defun contacts-closed-at (candidate workspace)
+  "Return a function of a friction: true if, with it, the contacts of CANDIDATE are closed."
+  (lambda (u) (grip-closed-p (contacts-grip candidate workspace u))))
+
+(defun closing-friction (u closed-at)
+  "Return the least friction above U that closes a grasp, or NIL; and the greatest that does not.
+CLOSED-AT tells of a friction whether it does."
+  (let ((low u)
+        (high (max 1d0 (* 2 u))))
+    (loop until (or (funcall closed-at high) (> high 100d0))
           do (setf high (* 2 high)))
-    (when (closed-at-p grasp registers high)
+    (when (funcall closed-at high)
       (loop repeat 40
             do (let ((middle (/ (+ low high) 2)))
-                 (if (closed-at-p grasp registers middle)
+                 (if (funcall closed-at middle)
                      (setf high middle)
                      (setf low middle))))
       (values high low))))
 
-(defun describe-open (candidate workspace)
-  (let* ((grasp (%candidate-grasp candidate))
-         (registers (copy-seq (workspace-registers workspace)))
-         (u (aref registers +u+)))
-    (cond ((not (has-value-p (grasp-wrench grasp) registers)) "a form of WRENCH has no value")
-          ((closed-at-p grasp registers u) "a form of TWIST, or the index, has no value in range")
-          (t
-           (multiple-value-bind (needed too-little) (closing-friction grasp registers)
-             (if needed
-                 (apply #'format nil "open: the contacts don't close on this shape; needs u > ~a, ~
-                                      has ~a" (number-texts too-little u))
-                 "open: the contacts don't close on this shape with any friction"))))))
+(defun describe-open (workspace closed-at)
+  "Return why a candidate is open, whose figures WORKSPACE holds; CLOSED-AT as for CLOSING-FRICTION."
+  (let ((u (%box-friction (workspace-box workspace))))
+    (if (funcall closed-at u)
+        "a form of TWIST, or the index, has no value in range"
+        (multiple-value-bind (needed too-little) (closing-friction u closed-at)
+          (if needed
+              (apply #'format nil "open: the contacts don't close on this shape; needs u > ~a, has ~a"
+                     (number-texts too-little u))
+              "open: the contacts don't close on this shape with any friction")))))
 
 (defun bounded (number)
   "Return NUMBER, or the greatest double if it is infinite: a replay traps nothing."
@@ -102,16 +109,34 @@ does not."
                       when (plusp share) collect (number-text share) and collect (axis-name axis))
                 (first (number-texts (total-share shares) 1))))))
 
-(defun friction-shortfall (grasp registers least)
-  "Return by how much the friction in REGISTERS misses what closes GRASP, relative; 1 if nothing
-does, or if it is no less than LEAST, unless that is NIL."
-  (let* ((u (aref registers +u+))
+(defun friction-shortfall (workspace closed-at least)
+  "Return by how much the friction of the box of WORKSPACE misses what closes a grasp, relative; 1 if
+nothing does, or if it is no less than LEAST, unless that is NIL.  CLOSED-AT as for CLOSING-FRICTION."
+  (let* ((u (%box-friction (workspace-box workspace)))
          (needed (and (or (null least)
                           ;; One look here saves most of the searches.
-                          (closed-at-p grasp registers (bounded-ratio u (- 1 (- least +tie+)))))
-                      (progn (setf (aref registers +u+) u)
-                             (closing-friction grasp registers)))))
+                          (funcall closed-at (bounded-ratio u (- 1 (- least +tie+)))))
+                      (closing-friction u closed-at))))
     (if needed (- 1 (/ u needed)) 1)))
+
+(defun held-share (candidate workspace)
+  "Return which part of the weight, 0 to 1, the contacts of CANDIDATE hold."
+  (let* ((weight (%box-weight (workspace-box workspace)))
+         (up (make-six)))
+    (setf (aref up 2) weight)
+    (min 1d0 (grip-entry (contacts-grip candidate workspace) up))))
+
+(defun describe-drop (candidate workspace)
+  "Return in words that the contacts of CANDIDATE can't hold the weight, and how the box gives way."
+  (let ((weight (%box-weight (workspace-box workspace)))
+        (share (held-share candidate workspace)))
+    (multiple-value-bind (holds witness)
+        (grip-holds-p (contacts-grip candidate workspace) (gravity-on (workspace-box workspace)))
+      (declare (ignore holds))
+      (format nil "it can't hold the weight: the load is ~a, the contacts bear ~:[no weight~;~:*~a~] ~
+                   in this direction~@[; the box would give way, ~a~]"
+              (number-text weight) (and (plusp share) (number-text (* share weight)))
+              (and witness (motion-text (map 'vector #'- witness) "moving" "turning"))))))
 
 (defun finger-shortfall (candidate workspace)
   "Return by how much a finger of CANDIDATE is beyond an edge, relative; 1 if a form has no value."
@@ -127,31 +152,35 @@ prevents is nearer than any other: its list begins with 0, not 1."
 
 ;;; One row for each outcome
 
-(defgeneric failure-text (outcome candidate workspace)
-  (:documentation "Return why CANDIDATE, whose figures WORKSPACE holds, has OUTCOME, a sentence.")
-  (:method (outcome candidate workspace)
-    (declare (ignore candidate workspace))
+(defgeneric failure-text (outcome index candidate workspace)
+  (:documentation "Return why CANDIDATE, whose figures WORKSPACE holds, has OUTCOME by INDEX, a
+keyword: a sentence.")
+  (:method (outcome index candidate workspace)
+    (declare (ignore index candidate workspace))
     (format nil "it fails the step ~a" outcome)))
 
-(defgeneric failure-shortfalls (outcome candidate workspace least)
+(defgeneric failure-shortfalls (outcome index candidate workspace least)
   (:documentation "Return by how much CANDIDATE, whose figures WORKSPACE holds, missed the step of
-OUTCOME: a list to compare by MISSES-LESS-P.  Each number is 0 to 1, relative; 1 where that can't be
+OUTCOME by INDEX, a keyword: a list to compare by MISSES-LESS-P.  Each number is 0 to 1, relative; 1 where that can't be
 said.  A number may be 1, too, if it is no less than LEAST, unless that is NIL.")
-  (:method (outcome candidate workspace least)
-    (declare (ignore outcome candidate workspace least))
+  (:method (outcome index candidate workspace least)
+    (declare (ignore outcome index candidate workspace least))
     '(1)))
 
 (defmacro define-failure (outcome (candidate workspace &optional (least (gensym))) &key why shortfalls)
   "Say of the candidates that have OUTCOME, a keyword (see DEFINE-STEP): WHY, a form that returns a
-sentence, and SHORTFALLS, one that returns a list (see FAILURE-SHORTFALLS)."
-  `(progn
-     (defmethod failure-text ((outcome (eql ,outcome)) ,candidate ,workspace)
-       (declare (ignorable ,candidate ,workspace))
-       ,why)
-     ,@(when shortfalls
-         `((defmethod failure-shortfalls ((outcome (eql ,outcome)) ,candidate ,workspace ,least)
-             (declare (ignorable ,candidate ,workspace ,least))
-             ,shortfalls)))))
+sentence, and SHORTFALLS, one that returns a list (see FAILURE-SHORTFALLS).  OUTCOME may be (OUTCOME
+INDEX), if that is so by one index only."
+  (destructuring-bind (outcome &optional index) (if (listp outcome) outcome (list outcome))
+    (let ((specializers `((outcome (eql ,outcome)) ,(if index `(index (eql ,index)) 'index))))
+      `(progn
+         (defmethod failure-text (,@specializers ,candidate ,workspace)
+           (declare (ignorable index ,candidate ,workspace))
+           ,why)
+         ,@(when shortfalls
+             `((defmethod failure-shortfalls (,@specializers ,candidate ,workspace ,least)
+                 (declare (ignorable index ,candidate ,workspace ,least))
+                 ,shortfalls)))))))
 
 (define-failure :conditions (candidate workspace)
   :why (describe-condition-failure candidate workspace)
@@ -164,14 +193,23 @@ sentence, and SHORTFALLS, one that returns a list (see FAILURE-SHORTFALLS)."
   :why (describe-finger-failure candidate workspace)
   :shortfalls (list (finger-shortfall candidate workspace)))
 
-(define-failure :open (candidate workspace least)
-  :why (describe-open candidate workspace)
-  :shortfalls (list (friction-shortfall (%candidate-grasp candidate)
-                                        (copy-seq (workspace-registers workspace)) least)))
+(define-failure (:open :paper) (candidate workspace least)
+  :why (if (has-value-p (grasp-wrench (%candidate-grasp candidate)) (workspace-registers workspace))
+           (describe-open workspace (entries-closed-at candidate workspace))
+           "a form of WRENCH has no value")
+  :shortfalls (list (friction-shortfall workspace (entries-closed-at candidate workspace) least)))
 
-(define-failure :lifting (candidate workspace)
+(define-failure (:lifting :paper) (candidate workspace)
   :why (describe-lifting-failure workspace)
   :shortfalls (list (- 1 (/ (total-share (load-shares workspace))))))
+
+(define-failure (:open :exact) (candidate workspace least)
+  :why (describe-open workspace (contacts-closed-at candidate workspace))
+  :shortfalls (list (friction-shortfall workspace (contacts-closed-at candidate workspace) least)))
+
+(define-failure (:lifting :exact) (candidate workspace)
+  :why (describe-drop candidate workspace)
+  :shortfalls (list (- 1 (held-share candidate workspace))))
 
 (defun candidate-failure (candidate &optional (plan *plan*))
   "Return why CANDIDATE of PLAN is not possible: the step (see CANDIDATE-OUTCOME) and a sentence
@@ -180,7 +218,7 @@ with the figures.  NIL if it is possible."
     (unless (eq outcome :possible)
       (with-replay (workspace candidate plan)
         (values outcome
-                (plainly (failure-text outcome candidate workspace)))))))
+                (plainly (failure-text outcome (plan-index plan) candidate workspace)))))))
 
 ;;; The nearest miss
 
@@ -200,8 +238,8 @@ with the figures.  NIL if it is possible."
     (with-workspace (workspace plan)
       (dolist (candidate candidates best)
         (when (eq step (candidate-outcome candidate))
-          (let ((shortfalls (failure-shortfalls step candidate (replay candidate workspace)
-                                                (first least))))
+          (let ((shortfalls (failure-shortfalls step (plan-index plan) candidate
+                                                (replay candidate workspace) (first least))))
             (when (or (null best) (misses-less-p shortfalls least))
               (setf best candidate least shortfalls))))))))
 

@@ -86,7 +86,7 @@ TEXT is a sentence, PLAN the plan."
         (constrained (used-and-constrained grasp matching plan))
         (same (find-if (lambda (other)
                          (logbitp (matching-index (%candidate-matching other))
-                                  (aref (grasp-same grasp) (matching-index matching))))
+                                  (same-grasp grasp matching plan)))
                        (candidates-of plan grasp))))
     (cond (candidate (explain-candidate candidate plan))
           (constrained
@@ -100,11 +100,16 @@ TEXT is a sentence, PLAN the plan."
                                           (candidate-matching same))))
           (t (not-tried grasp matching plan)))))
 
+(defun same-grasp (grasp matching plan)
+  "Return the set of the matchings in which GRASP is, for the index of PLAN, the same as in MATCHING."
+  (aref (funcall (index-same (index-named (plan-index plan))) grasp) (matching-index matching)))
+
 (defun untried-candidates (grasp matching plan)
   "Return the candidates that trying GRASP, in MATCHING or in all, would have given, the best first."
   (let* ((alone (try-only grasp (plan-box plan) :knowledge (plan-knowledge plan)
-                                                 :gamma (plan-gamma plan)))
-         (same (and matching (aref (grasp-same grasp) (matching-index matching)))))
+                                                 :gamma (plan-gamma plan)
+                                                 :index (plan-index plan)))
+         (same (and matching (same-grasp grasp matching plan))))
     (remove-if-not (lambda (candidate)
                      (or (null same)
                          (logbitp (matching-index (%candidate-matching candidate)) same)))

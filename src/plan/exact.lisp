@@ -1,0 +1,211 @@
+;;;; exact.lisp -- the exact index: closure, lifting and u_w are what the contacts can really do.
+;;;;
+;;;; A candidate whose fingers reach their places is possible if its contacts are closed and hold the
+;;;; weight.  Its u_w is the certified radius.  That takes a thousand times as long as all the rest, so
+;;;; the best is searched for with bounds: the candidate of the greatest Q is looked at more closely,
+;;;; until its radius is certified.  Those that can't be better keep their bound.
+
+(in-package :supergrip)
+
+(defstruct (strength (:constructor make-strength (grip)) (:copier nil))
+  "What is known of the exact radius of GRIP, the contacts of a candidate: UPPER, a bound, which the
+motion WORST shows; LOWER, certified, or NIL.  STAGE says what UPPER comes of: the :AXES, :DESCENTS
+from them, or a whole :SEARCH."
+  grip (upper 0d0 :type double-float) (lower nil) (worst nil) (stage :axes :type symbol))
+
+(defun gravity-on (box)
+  "Return the wrench of the weight of BOX about its centre, a six."
+  (let ((gravity (make-six)))
+    (setf (aref gravity 2) (- (%box-weight box)))
+    gravity))
+
+(defun contacts-grip (candidate workspace
+                      &optional (friction (%box-friction (workspace-box workspace))))
+  "Return the contacts of CANDIDATE, whose places WORKSPACE holds, as a grip with FRICTION."
+  (let* ((box (workspace-box workspace))
+         (contacts (workspace-contacts candidate workspace))
+         (grip (make-grip (length contacts) friction (%box-soft-friction box))))
+    (loop for contact in contacts
+          for index from 0
+          do (apply #'set-finger grip index (append (getf contact :position)
+                                                    (getf contact :normal))))
+    grip))
+
+;;; Steps
+
+(define-step (contact-closure :exact) :open (candidate workspace)
+  (without-float-traps
+    (let ((grasp (%candidate-grasp candidate)) (wrench (workspace-wrench workspace)))
+      ;; The WRENCH entries decide nothing here; they are only shown.
+      (fill wrench 0d0)
+      (unless (turn-entries (grasp-wrench grasp) candidate workspace wrench 0d0)
+        (fill wrench 0d0))
+      (when (turn-entries (grasp-twist grasp) candidate workspace (workspace-twist workspace)
+                          -1d-300)
+        (turn-centre workspace (%candidate-matching candidate) candidate)
+        (let ((grip (contacts-grip candidate workspace)))
+          (setf (%candidate-strength candidate) (make-strength grip))
+          (grip-closed-p grip))))))
+
+(define-step (contact-lifting :exact) :lifting (candidate workspace)
+  (let ((gravity (gravity-on (workspace-box workspace))))
+    (or (zerop (aref gravity 2))
+        (grip-holds-p (strength-grip (%candidate-strength candidate)) gravity))))
+
+(define-step (exact-quality :exact) :open (candidate workspace)
+  (without-float-traps
+    (shift-velocity (%box-velocity (workspace-box workspace)) (workspace-offset workspace)
+                    (workspace-velocity-needs workspace))
+    (multiple-value-bind (radius limit)
+        (embedded-radius (workspace-velocity-needs workspace) (workspace-twist workspace))
+      (setf (%candidate-velocity-radius candidate) radius
+            (%candidate-velocity-limit candidate) limit))
+    (look-along-axes (%candidate-strength candidate) (workspace-box workspace))
+    (rate-exactly candidate workspace)
+    (finite-p (%candidate-quality candidate))))
+
+;;; Strength
+
+(defun look-along-axes (strength box)
+  "Bound the radius of STRENGTH by motions along and about the axes that the task of BOX needs."
+  (let ((need (%box-force box)) (gravity (gravity-on box)) (motion (make-six)) (scratch (make-six)))
+    (setf (strength-upper strength) sb-ext:double-float-positive-infinity)
+    (dotimes (axis 6)
+      (when (plusp (aref need axis))
+        (dolist (way '(1d0 -1d0))
+          (fill motion 0d0)
+          (setf (aref motion axis) (/ way (aref need axis)))
+          (let ((power (+ (grip-power (strength-grip strength) motion scratch)
+                          (* (aref gravity 2) (aref motion 2)))))
+            (when (< power (strength-upper strength))
+              (setf (strength-upper strength) (max power 0d0)
+                    (strength-worst strength) (copy-seq motion)))))))
+    (unless (strength-worst strength)   ; nothing is needed
+      (setf (strength-stage strength) :search))))
+
+(defun look-closer (strength box)
+  "Go to the next stage of STRENGTH, at the task of BOX."
+  (flet ((look (&rest how)
+           (multiple-value-bind (upper lower worst)
+               (apply #'grip-radius (strength-grip strength) (%box-force box) (gravity-on box) how)
+             (setf (strength-upper strength) upper
+                   (strength-lower strength) lower
+                   (strength-worst strength) worst))))
+    (ecase (strength-stage strength)
+      (:axes (look 0.01d0 0.002d0 0)
+       (setf (strength-stage strength) (if (strength-lower strength) :search :descents)))
+      (:descents (look)
+       (setf (strength-stage strength) :search)))))
+
+(defun worst-axis (worst need)
+  "Return the axis, 0 to 5, of the greatest component of the motion WORST among those that the task
+NEED needs; -1 if there is none."
+  (let ((greatest -1))
+    (dotimes (axis 6 greatest)
+      (when (and (plusp (aref need axis))
+                 (or (minusp greatest)
+                     (> (abs (aref worst axis)) (abs (aref worst greatest)))))
+        (setf greatest axis)))))
+
+(defun counted-radius (candidate workspace)
+  "Return the radius with which CANDIDATE counts: a bound until the search is over, then the certified
+one or, if there is none, the sure radius."
+  (let ((strength (%candidate-strength candidate)) (box (workspace-box workspace)))
+    (cond ((null (strength-worst strength)) 0d0)
+          ((%candidate-bound candidate) (strength-upper strength))
+          ((strength-lower strength))
+          (t (replay candidate workspace)
+             (sure (workspace-wrench workspace) (%box-force box) (gravity-on box)
+                   (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))))
+
+(defun rate-exactly (candidate workspace)
+  "Put into CANDIDATE the radius and the quality that its strength gives."
+  (let ((strength (%candidate-strength candidate)))
+    (setf (%candidate-bound candidate) (not (eq (strength-stage strength) :search)))
+    (let ((radius (counted-radius candidate workspace))
+          (limit (worst-axis (strength-worst strength) (%box-force (workspace-box workspace)))))
+      (setf (%candidate-force-radius candidate) radius
+            (%candidate-force-limit candidate) limit
+            (%candidate-quality candidate)
+            (quality-index (workspace-gamma workspace) (%candidate-velocity-radius candidate)
+                           (%candidate-velocity-limit candidate) radius limit)))))
+
+;;; The best
+
+(defun greatest-quality (candidates)
+  "Return the first one of CANDIDATES of the greatest quality, or NIL."
+  (let ((best nil))
+    (dolist (candidate candidates best)
+      (when (or (null best) (> (%candidate-quality candidate) (%candidate-quality best)))
+        (setf best candidate)))))
+
+(defun choose-exactly (workspace log)
+  "Return the best candidate in LOG, the latest first, at the box of WORKSPACE, or NIL.  Its quality is
+no bound, and no less than that of any other, bound or not."
+  (without-float-traps
+    (let ((possible (reverse (remove-if-not (lambda (entry)
+                                              (and (candidate-p entry) (possible-p entry)))
+                                            log))))
+      (loop
+        (let ((next (greatest-quality (remove-if-not #'%candidate-bound possible)))
+              (best (greatest-quality (remove-if #'%candidate-bound possible))))
+          (when (or (null next)
+                    (and best (< (%candidate-quality next) (%candidate-quality best))))
+            (return best))
+          (look-closer (%candidate-strength next) (workspace-box workspace))
+          (rate-exactly next workspace))))))
+
+(defparameter +each-alone+
+  (let ((sets (make-array 24 :element-type '(unsigned-byte 24))))
+    (dotimes (matching 24 sets)
+      (setf (aref sets matching) (ash 1 matching))))
+  "For each matching, the set of itself: gravity has a direction, so half a turn makes a difference.")
+
+(setf *indices* (with-row (make-index :exact (constantly +each-alone+) #'choose-exactly)
+                  *indices* #'index-name))
+
+;;; Answers, for plans by any index
+
+(defun candidate-bound-p (candidate)
+  "True if the quality and u_w of CANDIDATE are upper bounds: so in exact mode where a candidate could
+not become the best, and was not looked at more closely."
+  (%candidate-bound candidate))
+
+(defmacro with-grip ((grip box candidate plan) &body body)
+  "Run BODY with GRIP, the contacts of CANDIDATE of PLAN, and BOX; NIL if it is not possible."
+  (let ((workspace (gensym)))
+    `(and (possible-p ,candidate)
+          (with-replay (,workspace ,candidate ,plan)
+            (let ((,grip (contacts-grip ,candidate ,workspace)) (,box (workspace-box ,workspace)))
+              ,@body)))))
+
+(defun candidate-exact-radius (candidate &optional (plan *plan*))
+  "Return what the contacts of CANDIDATE of PLAN can really do, by whatever index the plan was made:
+the exact force radius, an upper value, the certified lower one, or NIL, and the worst motion, a list
+of six, as EXACT-RADIUS does.  NIL if it is not possible, or the task needs no force."
+  (let ((strength (%candidate-strength candidate)))
+    (flet ((answer (upper lower worst) (values upper lower (coerce worst 'list))))
+      (cond ((every #'zerop (%box-force (plan-box (need-plan plan)))) nil)
+            ((and strength (possible-p candidate) (not (%candidate-bound candidate)))
+             (answer (strength-upper strength) (strength-lower strength) (strength-worst strength)))
+            (t (with-grip (grip box candidate plan)
+                 (multiple-value-bind (upper lower worst)
+                     (grip-radius grip (%box-force box) (gravity-on box))
+                   (answer upper lower worst))))))))
+
+(defun candidate-squeeze (candidate &optional (plan *plan*))
+  "Return the least cap on each finger's force with which the contacts of CANDIDATE of PLAN surely do
+the task at radius 1 and hold the weight, in units of a finger's greatest force: 1 or less if they do it
+as they are.  NIL if no cap does or it was not proved, if it is not possible, or if there is neither
+need nor weight.  See LEAST-SQUEEZE."
+  (with-grip (grip box candidate plan)
+    (and (or (plusp (%box-weight box)) (some #'plusp (%box-force box)))
+         (values (grip-squeeze grip (%box-force box) (gravity-on box))))))
+
+(defun candidate-friction-margin (candidate &optional (plan *plan*))
+  "Return by how much the friction u may be less and the contacts of CANDIDATE of PLAN surely still do
+the task at radius 1 and hold the weight: below 0 if they need more.  NIL if no u does or it was not
+proved, or if it is not possible.  See LEAST-FRICTION."
+  (with-grip (grip box candidate plan)
+    (let ((least (grip-least-friction grip (%box-force box) (gravity-on box))))
+      (and least (- (%box-friction box) least)))))
