@@ -208,6 +208,7 @@
                (:file "engines")
                (:file "forms")
                (:file "exact-statics")
+               (:file "exact")
                (:file "grasp-entries")
                (:file "curves")
                (:file "spoiled")

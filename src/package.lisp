@@ -74,6 +74,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-wrench #:candidate-twist #:candidate-sure #:candidate-failure
    #:candidate-palm #:candidate-load #:candidate-force-need #:candidate-velocity-need
    #:candidate-bound-p #:candidate-exact-radius #:candidate-squeeze #:candidate-friction-margin
+   #:candidate-powers #:motion-text
    #:try-grasp
    ;; what contacts can really do
    #:exact-radius #:holds-p #:contact-forces #:wrench-entries #:least-squeeze #:least-friction

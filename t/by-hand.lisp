@@ -136,7 +136,7 @@
              pinch-3-u-shape (x1))
             ("no matching has (X1 Y1 ? ? ? ?): N O A must be a proper rotation of X Y Z, N1 opposite N2, and so on"
              pinch-3-u-shape (x1 y1 ? ? ? ?))
-            ("TRACE is not a key of TRY: keys are :BOX, :KNOWLEDGE, :GAMMA, :STREAM"
+            ("TRACE is not a key of TRY: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :STREAM"
              pinch-3-u-shape nil :trace 3)
             ("there is no value after the key :GAMMA of TRY" pinch-3-u-shape :gamma))
           do (is (equal text (error-text (apply #'supergrip:try arguments)))))

@@ -9,15 +9,18 @@
   (let ((readers '()))
     (do-external-symbols (symbol :supergrip (sort readers #'string<))
       (when (and (fboundp symbol) (not (macro-function symbol))
-                 (not (eq symbol 'supergrip:box-value)) ; it wants a key
+                 (not (member symbol '(supergrip:box-value           ; they want
+                                       supergrip:candidate-powers))) ; something more
                  (not (typep (fdefinition symbol) 'generic-function))
                  (eql 0 (search prefix (symbol-name symbol))))
         (push symbol readers)))))
 
 (defun ask (reader object plan)
   "Return the answer of READER about OBJECT, of PLAN if it wants that as well."
-  (if (member reader '(supergrip:candidate-contacts supergrip:candidate-wrench
-                       supergrip:candidate-twist supergrip:candidate-sure supergrip:candidate-failure
+  (if (member reader '(supergrip:candidate-exact-radius supergrip:candidate-squeeze
+                       supergrip:candidate-friction-margin supergrip:candidate-contacts
+                       supergrip:candidate-wrench supergrip:candidate-twist
+                       supergrip:candidate-sure supergrip:candidate-failure
                        supergrip:candidate-load supergrip:candidate-force-need
                        supergrip:candidate-velocity-need))
       (funcall reader object plan)

@@ -200,7 +200,9 @@
     (supergrip::with-workspace (workspace plan)
       (dolist (candidate candidates best)
         (when (eq step (supergrip:candidate-outcome candidate))
-          (let ((shortfalls (supergrip::failure-shortfalls step :paper candidate (supergrip::replay candidate workspace) nil)))
+          (let ((shortfalls (supergrip::failure-shortfalls step :paper candidate
+                                                            (supergrip::replay candidate workspace)
+                                                            nil)))
             (when (or (null best) (supergrip::misses-less-p shortfalls least))
               (setf best candidate least shortfalls))))))))
 

@@ -97,7 +97,7 @@
   (let ((supergrip::*breaks* '()) (supergrip::*traced* '())
         (plan (supergrip:plan (paper-box))))
     (loop for (text function . arguments) in
-          `(("RULES is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :STREAM, :TRACE, :STEP"
+          `(("RULES is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :STREAM, :TRACE, :STEP"
              supergrip:forward-chain :box ,(paper-box) rules 3)
             ("GRASPS is not a stream that can be printed to"
              supergrip:forward-chain ,(paper-box) :stream grasps)

@@ -209,3 +209,29 @@ proved, or if it is not possible.  See LEAST-FRICTION."
   (with-grip (grip box candidate plan)
     (let ((least (grip-least-friction grip (%box-force box) (gravity-on box))))
       (and least (- (%box-friction box) least)))))
+
+(defun finger-powers (position normal u v motion)
+  "Return what a finger at POSITION with the inward NORMAL, lists of three, can do at most in MOTION, a
+list of six, by pressing, by friction U and by its tip's torque V: nothing if it can't help."
+  (destructuring-bind (vx vy vz wx wy wz) motion
+    (destructuring-bind (x y z) position
+      (let* ((velocity (list (+ vx (- (* wy z) (* wz y)))
+                             (+ vy (- (* wz x) (* wx z)))
+                             (+ vz (- (* wx y) (* wy x)))))
+             (along (reduce #'+ (mapcar #'* normal velocity)))
+             (across (loop for k in velocity for n in normal sum (expt (- k (* along n)) 2)))
+             (powers (list along (* u (sqrt across))
+                           (* v (abs (reduce #'+ (mapcar #'* normal (list wx wy wz))))))))
+        (if (plusp (reduce #'+ powers)) powers '(0d0 0d0 0d0))))))
+
+(defun candidate-powers (candidate motion &optional (plan *plan*))
+  "Return what the contacts of CANDIDATE of PLAN can do at most in MOTION, a list of six, such as the
+worst that CANDIDATE-EXACT-RADIUS gives: four numbers, the power of pressing, of friction, of the
+fingertips' torque and of the weight.  Together they are the radius times what the task needs there."
+  (let ((box (plan-box (need-plan plan))))
+    (append (reduce (lambda (a b) (mapcar #'+ a b))
+                    (loop for contact in (candidate-contacts candidate plan)
+                          collect (finger-powers (getf contact :position) (getf contact :normal)
+                                                 (%box-friction box) (%box-soft-friction box)
+                                                 motion)))
+            (list (- (* (%box-weight box) (third motion)))))))

@@ -217,7 +217,7 @@ one is needed at all."
 (defun steps-curve (sheet)
   "Return the curve that is true where the candidate of SHEET passes all steps."
   (let ((tests '()))
-    (loop for step in *steps*
+    (loop for step in (steps-of (plan-index (line-plan (sheet-line sheet))))
           for row = (assoc (try-step-name step) *step-curves*)
           for test = (new-curve :holds (list (if row
                                                  (funcall (cdr row) sheet)

@@ -42,12 +42,34 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
   "Return the LIMIT of RADIUS on AXIS, 0 to 5, where the grasp HAS, and the task NEEDS, six numbers."
   (make-limit :axis (axis-name axis) :has (aref has axis) :needs (aref needs axis) :radius radius))
 
-(defun force-limit (candidate plan)
-  "Return the LIMIT of u_w of CANDIDATE, or NIL if no force is needed."
-  (when (candidate-force-axis candidate)
+(defstruct (exact-limit (:include limit))
+  "What limits an exact radius: AXIS is that of the greatest component of MOTION, the worst, in which
+the task NEEDS the power 1 times the radius; HAS is a list of what pressing, friction, the fingertips'
+torque and the weight give there, together UPPER; RADIUS is what the grasp counts with, and CERTIFIED
+the proved one, or NIL."
+  motion upper certified)
+
+(defun exact-force-limit (candidate plan)
+  "Return the EXACT-LIMIT of u_w of CANDIDATE."
+  (multiple-value-bind (upper certified motion) (candidate-exact-radius candidate plan)
+    (make-exact-limit :axis (candidate-force-axis candidate) :needs 1d0
+                      :has (candidate-powers candidate motion plan)
+                      :radius (candidate-force-radius candidate)
+                      :motion motion :upper upper :certified certified)))
+
+(defgeneric force-limit-by (index candidate plan)
+  (:documentation "Return the LIMIT of u_w of CANDIDATE of PLAN, which is by INDEX.")
+  (:method ((index (eql :exact)) candidate plan)
+    (exact-force-limit candidate plan))
+  (:method ((index (eql :paper)) candidate plan)
     (with-replay (workspace candidate plan)
       (limit-at (%candidate-force-limit candidate) (workspace-spare workspace)
                 (workspace-force-needs workspace) (candidate-force-radius candidate)))))
+
+(defun force-limit (candidate plan)
+  "Return the LIMIT of u_w of CANDIDATE, or NIL if no force is needed."
+  (and (candidate-force-axis candidate)
+       (force-limit-by (plan-index plan) candidate plan)))
 
 (defun velocity-limit (candidate plan)
   "Return the LIMIT of u_t of CANDIDATE, or NIL if no velocity is needed."
@@ -77,6 +99,11 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
   "Return the keys whose values belong to the task and the material, not to the shape of the box."
   (remove-if (lambda (row) (or (null (box-key-words row)) (consp (box-key-type row)))) *box-keys*))
 
+(defun choice-changes-of (plan)
+  "Return what FIND-CHANGES does of the choice of PLAN; nothing if it is not by the paper's index."
+  (and (eq (plan-index plan) :paper)
+       (find-changes plan (other-choice plan) (task-keys))))
+
 ;;; The answer
 
 (defun explain-choice (&optional (plan *plan*))
@@ -85,7 +112,7 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
     (refuse-argument "the run is not over, so there is no best grasp yet"))
   (let ((best (plan-best plan))
         (runner-up (second (plan-possible plan))))
-    (multiple-value-bind (changes stepped) (find-changes plan (other-choice plan) (task-keys))
+    (multiple-value-bind (changes stepped) (choice-changes-of plan)
       (make-choice :plan plan
                    :sentence (if best
                                  (grasp-sentence best)
@@ -107,19 +134,38 @@ choice to change."
 
 (defmethod write-answer ((answer choice) stream)
   (format stream "~a.~%" (choice-sentence answer))
-  (write-limit "Force" "exerts" "beyond the weight's load" (choice-force answer) stream)
+  (write-force-limit (choice-force answer) stream)
   (write-limit "Velocity" "moves with" nil (choice-velocity answer) stream)
   (write-sure (choice-sure answer) stream)
   (write-meaning answer stream)
   (when (choice-runner-up answer)
-    (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, but tried later~;a Q lower by ~a~].~%"
+    (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, but tried later~;a Q lower by ~@[at ~
+                    least ~*~]~a~].~%"
             (candidate-grasp (choice-runner-up answer))
             (candidate-matching (choice-runner-up answer)) (> (choice-margin answer) +tie+)
+            (candidate-bound-p (choice-runner-up answer))
             (number-text (choice-margin answer))))
-  (if (choice-changes answer)
-      (write-changes (choice-changes answer) stream)
-      (format stream "No single need, friction or weight would change the choice.~%"))
+  (cond ((choice-changes answer) (write-changes (choice-changes answer) stream))
+        ((eq (plan-index (choice-plan answer)) :paper)
+         (format stream "No single need, friction or weight would change the choice.~%"))
+        (t (format stream "What would change the choice is searched for by the paper's index ~
+                           only.~%")))
   (write-stepped (choice-stepped answer) stream))
+
+(defgeneric write-force-limit (limit stream)
+  (:documentation "Write what limits u_w, LIMIT, or nothing for NIL.")
+  (:method (limit stream)
+    (write-limit "Force" "exerts" "beyond the weight's load" limit stream))
+  (:method ((limit exact-limit) stream)
+    (format stream "Force is limited where the box is ~a: radius ~a~:[, not proved~;, proved~], and at ~
+                    most ~a.~%"
+            (motion-text (exact-limit-motion limit) "pushed" "turned")
+            (three-decimals (limit-radius limit)) (exact-limit-certified limit)
+            (three-decimals (exact-limit-upper limit)))
+    (format stream "  There pressing gives ~a, friction ~a, the fingertips' torque ~a, the weight ~a; ~
+                    the task needs 1.~%"
+            (three-decimals (first (limit-has limit))) (three-decimals (second (limit-has limit)))
+            (three-decimals (third (limit-has limit))) (three-decimals (fourth (limit-has limit))))))
 
 (defun write-limit (kind verb beyond limit stream)
   (when limit

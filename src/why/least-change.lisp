@@ -40,8 +40,9 @@ prospect or NIL; it is NIL itself if the test depends only on what is known of t
   "Return the plan for BOX, made as PLAN was."
   (if (plan-tries plan)
       (try-without-rules (plan-tries plan) box :knowledge (plan-knowledge plan)
-                                               :gamma (plan-gamma plan))
-      (plan box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))))
+                                               :gamma (plan-gamma plan) :index (plan-index plan))
+      (plan box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan)
+                :index (plan-index plan))))
 
 (defun needs-something-p (box)
   (or (some #'plusp (%box-force box)) (some #'plusp (%box-velocity box))))

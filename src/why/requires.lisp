@@ -18,8 +18,9 @@ POSSIBLE, for a grasp that nothing makes the best, is the requirement of kind :P
   (possible nil))
 
 (defun whole-plan (plan)
-  "Return PLAN, or, if its rules have not run to their end, the plan for its box."
-  (if (or (plan-tries plan) (unfinished-p plan))
+  "Return PLAN, or, if its rules have not run to their end or it is not by the paper's index, the plan
+by that for its box: what is known of the box is the same."
+  (if (or (plan-tries plan) (unfinished-p plan) (not (eq (plan-index plan) :paper)))
       (plan (plan-box plan) :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))
       plan))
 
@@ -68,6 +69,13 @@ POSSIBLE, for a grasp that nothing makes the best, is the requirement of kind :P
   (require-of plan :rule (format nil "RULE ~a" (rule-name rule))
               (make-goal :test (lambda (plan) (refusal-fired (refuse-rule rule plan))))))
 
+(defun check-searchable (plan)
+  "Signal an ARGUMENT-ERROR if what makes a grasp the best of PLAN can't be searched for."
+  (unless (eq (plan-index plan) :paper)
+    (refuse-argument "what a grasp requires is searched for by the paper's index only, and this plan is ~
+                      by the index ~s; ask of a plan by the paper's index: (requires grasp (plan ~
+                      (plan-box plan)))" (plan-index plan))))
+
 (defun require-grasp (grasp plan)
   (flet ((true-p (plan)
            (and (plan-best plan) (eq grasp (%candidate-grasp (plan-best plan)))))
@@ -89,7 +97,8 @@ POSSIBLE, for a grasp that nothing makes the best, is the requirement of kind :P
 (defun explain-requirement (what &optional (plan *plan*))
   "Return the REQUIREMENT of the box of PLAN for WHAT: a fact, as '(SMALL (Y2 Y1)), which may have
 NOT or NO among its words, or the name of a rule or a grasp, a symbol or a string."
-  (let* ((plan (whole-plan (need-plan plan)))
+  (let* ((given (need-plan plan))
+         (plan (whole-plan given))
          (knowledge (plan-knowledge plan))
          (word (and (not (fact-form-p what)) (name-of what)))
          (rule (and word (find-rule (knowledge-rulebase knowledge) word)))
@@ -97,7 +106,8 @@ NOT or NO among its words, or the name of a rule or a grasp, a symbol or a strin
     (plainly
       (cond ((fact-form-p what) (require-fact what plan))
             (rule (require-rule rule plan))
-            (grasp (require-grasp grasp plan))
+            (grasp (check-searchable given)
+                   (require-grasp grasp plan))
             (t (error 'no-rule-error :name what :known (known-names knowledge)))))))
 
 (defun requires (what &optional (plan *plan*))

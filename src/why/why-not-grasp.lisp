@@ -69,7 +69,8 @@ TEXT is a sentence, PLAN the plan."
                  ((<= margin +tie+)
                   (format nil "its Q is ~a, as good as that of the best, which was tried before it"
                           (three-decimals (candidate-quality candidate))))
-                 (t (format nil "its Q is ~a, ~a below ~a (~{~a~^ ~})"
+                 (t (format nil "its Q is ~:[~a, ~;at most ~a, at least ~]~a below ~a (~{~a~^ ~})"
+                            (candidate-bound-p candidate)
                             (three-decimals (candidate-quality candidate)) (number-text margin)
                             (candidate-grasp best) (candidate-matching best)))))))
 
@@ -195,8 +196,8 @@ is HOW's.  PLAN may stand in the place of MATCHING."
 
 (defun write-untried (candidate plan stream)
   (if (eq (candidate-outcome candidate) :possible)
-      (format stream "If tried, it would be possible, with Q=~a in (~{~a~^ ~}).~%"
-              (three-decimals (candidate-quality candidate)) (candidate-matching candidate))
+      (format stream "If tried, it would be possible, with Q~a~a in (~{~a~^ ~}).~%"
+              (quality-sign candidate) (three-decimals (candidate-quality candidate)) (candidate-matching candidate))
       (format stream "If tried, it would fail; nearest in (~{~a~^ ~}): ~a.~%"
               (candidate-matching candidate) (nth-value 1 (candidate-failure candidate plan)))))
 

@@ -1,0 +1,119 @@
+;;;; exact.lisp -- exact mode: what the contacts can really do decides, and the choice is the best by it.
+
+(in-package :supergrip-test)
+(define-suite exact
+  "Exact mode: what the contacts can really do decides, and the choice is the best by it.")
+
+(defun exact-plan (box &rest keys) (apply #'supergrip:plan box :index :exact keys))
+
+(defun needed (plan) (coerce (supergrip:box-force-needed (supergrip:plan-box plan)) 'list))
+
+;;; What is possible
+
+(defun dropped (plan)
+  "Return the possible candidates of PLAN that can't hold the weight."
+  (remove-if (lambda (candidate)
+               (destructuring-bind (contacts u v need gravity)
+                   (candidate-case candidate plan '(1 1 1 1 1 1))
+                 (declare (ignore need))
+                 (supergrip:holds-p contacts u v gravity)))
+             (supergrip:plan-possible plan)))
+
+(test nothing-possible-drops-its-box
+  (for-random-boxes (box 150 31)
+    (dolist (index '(:paper :exact))
+      (let ((plan (supergrip:plan box :index index)))
+        (unless (null (dropped plan)) (fail "~s ~s" index box)))))
+  (pass))
+
+(test an-exact-plan-agrees-with-itself
+  (for-random-boxes (box 150 32)
+    (let* ((plan (exact-plan box)) (best (supergrip:plan-best plan)))
+      (dolist (candidate (supergrip:plan-possible plan))
+        (is (<= (supergrip:candidate-quality candidate) (supergrip:candidate-quality best)))
+        (is (not (and (eq candidate best) (supergrip:candidate-bound-p best))))
+        (unless (supergrip:candidate-bound-p candidate)
+          (multiple-value-bind (upper lower) (supergrip:candidate-exact-radius candidate plan)
+            (when lower
+              (is (= lower (supergrip:candidate-force-radius candidate)))
+              (is (<= (- upper (max (* 0.01d0 upper) 0.002d0) 1d-9) lower upper)
+                  "~s ~a ~a" box lower upper))))))))
+
+(test what-contacts-close-is-closed-where-a-formula-gives-up
+  (let ((box '((size 5 4 3.2) (weight 0.05) (u 0.8) (v 0.2) (constrained z2 x1 y1)
+               (force-needed (1 1 1 1 1 1)) (velocity-needed (0 0 0 0 0 0)))))
+    (flet ((outcomes (index)
+             (mapcar #'supergrip:candidate-outcome
+                     (supergrip:plan-candidates (supergrip:try-grasp "PINCH-3-CORNER" box
+                                                                     :index index)))))
+      (is (member :open (outcomes :paper)))
+      (is (< (count :open (outcomes :exact)) (count :open (outcomes :paper)))))))
+
+(test half-turns-are-told-apart-by-the-weight
+  (flet ((tried (index)
+           (length (supergrip:plan-candidates
+                    (supergrip:try-grasp "PINCH-3-PARALLEL" (paper-box) :index index)))))
+    (is (< (tried :paper) (tried :exact)))))
+
+(test a-task-without-forces-has-no-radius
+  (let* ((plan (exact-plan '((size 12 2 2) (weight 0.2) (u 0.8) (v 0.2) (constrained z2 x1)
+                             (force-needed (0 0 0 0 0 0)) (velocity-needed (1 1 1 1 1 1)))))
+         (best (supergrip:plan-best plan))
+         (record (supergrip::plan-record plan)))
+    (is (null (supergrip:candidate-force-radius best)))
+    (is (null (supergrip:candidate-exact-radius best plan)))
+    (is (= (supergrip:candidate-quality best) (supergrip:candidate-velocity-radius best)))
+    (is (null (getf record :beta)))
+    (is (plusp (getf record :squeeze)))))
+
+;;; The pencil
+
+(test the-pencil-by-the-exact-index
+  (let* ((plan (exact-plan (paper-box))) (best (supergrip:plan-best plan))
+         (record (supergrip::plan-record plan)))
+    (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp plan)))
+    (destructuring-bind (lower upper) (getf record :beta)
+      (is (<= lower 0.880d0 upper))      ; by cone programming
+      (is (= lower (getf record :u-w)))
+      (is (<= (- (* 0.99d0 upper) 1d-9) lower)))
+    (is (< 1.12d0 (getf record :squeeze) 1.15d0))
+    (is (minusp (getf record :friction-margin)))
+    (is (equal '(:beta :squeeze :friction-margin)
+               (last (loop for key in record by #'cddr collect key) 3)))
+    (is (= (position (reduce #'max (multiple-value-bind (upper lower worst)
+                                       (supergrip:candidate-exact-radius best plan)
+                                     (declare (ignore upper lower))
+                                     worst)
+                             :key #'abs)
+                     (nth-value 2 (supergrip:candidate-exact-radius best plan)) :key #'abs)
+           (supergrip::%candidate-force-limit best)))
+    (is (close-to (first (multiple-value-list (supergrip:candidate-exact-radius best plan)))
+                  (reduce #'+ (supergrip:candidate-powers
+                               best (nth-value 2 (supergrip:candidate-exact-radius best plan))
+                               plan))))
+    (is (equal record (json-record (json-line record))))))
+
+(test the-squeeze-is-where-the-radius-is-one
+  (for-random-boxes (box 60 5)
+    (let* ((plan (exact-plan box)) (best (supergrip:plan-best plan)) (need (needed plan))
+           (squeeze (and best (supergrip:candidate-squeeze best plan))))
+      (when (and squeeze (notevery #'zerop need))
+        ;; With all forces scaled, the radius scales: a weight and a task less by the cap.
+        (destructuring-bind (contacts u v need gravity) (candidate-case best plan need)
+          (flet ((radius (cap)
+                   (flet ((less (six) (mapcar (lambda (number) (/ number cap)) six)))
+                     (supergrip:exact-radius contacts u v (less need) :gravity (less gravity)))))
+            (is (<= (- 1d0 1d-9) (radius squeeze)) "~a" box)
+            (is (<= (* 0.99d0 (radius (* 0.985d0 squeeze))) 1d0) "~a" box)))))))
+
+(test an-unknown-index-is-told-of
+  (is (equal "index is EXAKT; it is :PAPER or :EXACT"
+             (error-text (supergrip:plan (paper-box) :index :exakt)))))
+
+(test exact-plans-do-not-depend-on-float-traps
+  (let* ((plan (exact-plan (paper-box))) (box (supergrip:plan-box plan)))
+    (is (equal (plan-figures plan)
+               (plan-figures (call-in-modes (lambda () (exact-plan box))
+                                            :traps '(:underflow :inexact)
+                                            :rounding-mode :positive-infinity))))
+    (is (not (traps-matter-p (lambda () (plan-figures (exact-plan box))))))))
