@@ -16,7 +16,6 @@
 (defvar *all-needed* (map 'six #'identity '(1d0 1d0 1d0 1d0 1d0 1d0))
   "A task with a need along each axis.")
 
-
 (defstruct (finder (:copier nil) (:conc-name f-))
   "The search for the wrench nearest to TARGET: COUNT to ROWS are the grip's in FRAME.  There are
 SIZE CORNERS, wrenches less the target, each with the motion that gave it and its SHARE; X is the
