@@ -38,11 +38,7 @@ best candidate, or NIL."
   (same nil :type function :read-only t)
   (choose nil :type function :read-only t))
 
-(defvar *indices*
-  (list (make-index :paper #'grasp-same (lambda (workspace log)
-                                          (declare (ignore log))
-                                          (workspace-best workspace))))
-  "All indices; the first is used by default.")
+(defvar *indices* '() "All indices; the first is used by default.")
 
 (defun index-named (name)
   "Return the index NAME, a keyword, or signal an ARGUMENT-ERROR."
@@ -71,6 +67,19 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
 
 (define-printing (workspace workspace) "~@[at ~a~]" (workspace-box workspace))
 
+(setf *indices* (with-row (make-index :paper #'grasp-same (lambda (workspace log)
+                                                            (declare (ignore log))
+                                                            (workspace-best workspace)))
+                  *indices* #'index-name))
+
+(defvar *steps* '((:paper) (:exact))
+  "For each index, by its name, the steps that DEFINE-STEP has defined, in the order in which
+they are taken.")
+
+(declaim (inline steps-of))
+(defun steps-of (index)
+  (rest (assoc index *steps* :test #'eq)))
+
 (defun make-workspace (graspbase)
   "Return a workspace with the grasps of GRASPBASE, at no box yet."
   (%make-workspace (copy-seq (graspbase-registers graspbase))
@@ -96,14 +105,6 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   "A step of TRY.  OUTCOME is what a candidate that fails it has; TEST, a function of the candidate and
 the workspace, returns true if it passes.  NAME is a symbol."
   (outcome nil :type keyword) (name nil :type symbol) (test nil :type function))
-
-(defvar *steps* '((:paper) (:exact))
-  "For each index, by its name, the steps that DEFINE-STEP has defined, in the order in which they are
-taken.")
-
-(declaim (inline steps-of))
-(defun steps-of (index)
-  (rest (assoc index *steps* :test #'eq)))
 
 (defun add-try-step (step &optional index)
   "Make STEP one of the steps of INDEX, a keyword, or of all."
