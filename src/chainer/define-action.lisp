@@ -35,7 +35,7 @@ DEFINE-ACTION adds a method.")
     (complain (action-form action) "~a is not an action; actions are ~{~a~^, ~}~a" verb
               (action-verbs) (suggestion (string verb) (action-verbs)))))
 
-;;; What else is known of an action.  By default, nothing; a verb adds methods.
+;;; What else is known of an action.  By default, as little as can be; a verb adds methods.
 
 (defgeneric action-conclusion (verb operands)
   (:documentation "Return the sentence that an action VERB, a keyword, of OPERANDS remembers, or NIL.")
@@ -50,11 +50,17 @@ level, as the grasp that it tries.")
     (declare (ignore verb operands))
     '()))
 
+(defgeneric action-sees-p (verb action variable)
+  (:documentation "True if it makes a difference to ACTION which face VARIABLE has.")
+  (:method (verb action variable)
+    (declare (ignore verb action variable))
+    t))
+
 (defgeneric symmetric-action-p (verb action a b)
   (:documentation "True if ACTION does the same after the variables A and B were exchanged.")
   (:method (verb action a b)
-    (declare (ignore verb a b))
-    (action-once action)))
+    (or (action-once action)
+        (not (or (action-sees-p verb action a) (action-sees-p verb action b))))))
 
 (defgeneric describe-action (verb action)
   (:documentation "Return what ACTION does, in words.")

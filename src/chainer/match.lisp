@@ -20,7 +20,9 @@
 ;;;; Tests and filters bind nothing.  So running them early changes neither which bindings are found
 ;;;; nor their order.
 ;;;;
-;;;; Where several bindings have the same effect, only one is followed: see symmetry.lisp.
+;;;; Where several bindings have the same effect, only one is followed: see symmetry.lisp.  So where
+;;;; the clauses left are about two variables that no action sees, one closure tests whether there
+;;;; is such a pair: it intersects sets of pairs, 36 bits each.
 
 (in-package :supergrip-chainer)
 
@@ -32,7 +34,8 @@
 (defun compile-antecedent (clauses actions count)
   "Return the matcher of a rule of CLAUSES and ACTIONS, which has COUNT variables.  It leaves out some of
 the bindings that would do nothing."
-  (let ((*interchangeable* (interchangeable-pairs clauses actions count)))
+  (let ((*interchangeable* (interchangeable-pairs clauses actions count))
+        (*unseen* (unseen-variables actions count)))
     (compile-clauses clauses '())))
 
 (declaim (inline find-bindings))
@@ -49,6 +52,8 @@ the bindings that would do nothing."
         (clause (first clauses)))
     (cond ((null clauses) #'collect-binding)
           (test (compile-test test (compile-clauses (remove test clauses) bound)))
+          ((unseen-pair clauses bound)
+           (compile-pair-test (unseen-pair clauses bound) clauses bound))
           ((clause-negated clause)
            (compile-enumeration (first (unbound-variables clause bound)) clauses bound))
           (t (compile-walk clause (rest clauses) bound)))))
@@ -178,6 +183,55 @@ the bindings that would do nothing."
         (when (and (= (logcount set) arity)
                    (eq wanted (known-p memory index (ash 1 set))))
           (funcall next memory binding))))))
+
+;;; A test whether there is a pair
+
+(defparameter +rows+
+  (let ((rows (make-array 64 :element-type '(unsigned-byte 62) :initial-element 0)))
+    (dotimes (set 64 rows)
+      (dotimes (face 6)
+        (setf (ldb (byte 6 (* 6 face)) (aref rows set)) (if (logbitp face set) 63 0)))))
+  "For each set of faces, the bits of all pairs (see FACT-BITS) whose first face is in it.")
+(declaim (type (simple-array (unsigned-byte 62) (64)) +rows+))
+
+(defconstant +no-pairs+ #o402010040201 "The bits of a face with itself.")
+
+(defun unseen-pair (clauses bound)
+  "Return the two variables that CLAUSES bind after BOUND, if no action sees them and all CLAUSES are
+of one or two surfaces; else NIL."
+  (let ((unbound (remove-duplicates
+                  (loop for clause in clauses append (unbound-variables clause bound))
+                  :from-end t)))
+    (and (= (length unbound) 2)
+         (subsetp unbound *unseen*)
+         (every (lambda (clause) (<= (length (clause-terms clause)) 2)) clauses)
+         unbound)))
+
+(defun pack-pair-filter (clause)
+  "Return the filter of pairs that CLAUSE, of two variables, is: 36 bits, all set if it is negated,
+and the index of its predicate."
+  (logior (if (clause-negated clause) (1- (ash 1 36)) 0)
+          (ash (predicate-index (clause-predicate clause)) 36)))
+
+(defun compile-pair-test (pair clauses bound)
+  "Return a matcher that collects the binding as it is if the variables PAIR could be bound so that
+all CLAUSES are met."
+  (let* ((own (loop for variable in pair collect (filter-clauses variable clauses bound)))
+         (both (set-difference-in-order clauses (reduce #'append own)))
+         (pair-filters (coerce (mapcar #'pack-pair-filter both) 'filters)))
+    (destructuring-bind (filters1 filters2) (mapcar #'pack-filters own pair)
+      (declare (type filters filters1 filters2 pair-filters))
+      (lambda (memory binding)
+        (declare (type memory memory) (type face-list binding))
+        (let ((relations (memory-relations memory))
+              (pairs (logand (aref +rows+ (allowed-faces memory binding filters1))
+                             (* #o10101010101 (allowed-faces memory binding filters2))
+                             (lognot +no-pairs+))))
+          (declare (type (unsigned-byte 36) pairs))
+          (loop for filter across pair-filters
+                do (setf pairs (logand pairs (logxor filter (aref relations (ash filter -36))))))
+          (unless (zerop pairs)
+            (collect-binding memory binding)))))))
 
 ;;; An enumeration of faces
 

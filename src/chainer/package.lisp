@@ -27,7 +27,7 @@ one generic function.")
    #:find-rule #:find-predicate
    ;; actions
    #:define-action #:finish-action #:compile-action #:action-verbs #:verb-key #:action-conclusion #:action-mentions
-   #:symmetric-action-p #:describe-action #:sentence-text
+   #:action-sees-p #:symmetric-action-p #:describe-action #:sentence-text
    #:loose-surface-p #:list-surfaces #:parse-surfaces #:parse-sentence #:negation-p
    #:term-variable-p #:term-value #:instantiate
    ;; running

@@ -55,5 +55,9 @@ TERMS."
                                   (declare (ignore memory binding))
                                   (make-stop :verdict :cant :rule rule :words words)))))))
 
+(defmethod action-sees-p ((verb (eql :cant)) action variable)
+  (declare (ignore action variable))
+  nil)
+
 (defmethod describe-action ((verb (eql :cant)) action)
   (format nil "stop: can't ~{~a~^ ~}" (action-operands action)))

@@ -2,11 +2,14 @@
 ;;;;
 ;;;; Many rules say the same when two of their variables are exchanged, such as (ADJACENT (s1 s2)).
 ;;;; Then every binding has a twin.  The later of the two changes nothing, so a run leaves it out.
+;;;; And where no action sees the last two variables, that they can be bound is enough.
 
 (in-package :supergrip-chainer)
 
 (defvar *interchangeable* '()
   "The pairs of variables, a list of lists, of whose twin bindings one is enough.")
+
+(defvar *unseen* '() "The variables whose faces make no difference to any action.")
 
 (defvar *ascending* '()
   "Those of the variables bound so far that take their faces in ascending order, the latest first.")
@@ -26,6 +29,14 @@ ACTIONS do.  Lists of surfaces are unordered."
                                                             action a b))
                                       actions))
                        collect (list a b))))
+
+(defun unseen-variables (actions count)
+  "Return those of COUNT variables whose faces make no difference to ACTIONS."
+  (loop for variable below count
+        unless (some (lambda (action)
+                       (action-sees-p (verb-key (action-verb action)) action variable))
+                     actions)
+          collect variable))
 
 (defun same-clauses-p (clauses a b)
   "True if CLAUSES are the same after the variables A and B were exchanged."

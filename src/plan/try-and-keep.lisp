@@ -9,17 +9,21 @@ any."
                           collect (and term (not (term-variable-p term)) (term-value term 0)))))
 
 (defun variable-faces (terms)
-  "Return a list of (GRASP-FACE . TERM) for those of TERMS, six, that are variables."
-  (loop for term in terms
-        for grasp-face from 0
-        when (and term (term-variable-p term)) collect (cons grasp-face term)))
+  "Return what SUGGESTED-MATCHINGS needs of TERMS, six: for each that is a variable, 8 times its
+number and the grasp face."
+  (coerce (loop for term in terms
+                for grasp-face from 0
+                when (and term (term-variable-p term)) collect (+ (* 8 term) grasp-face))
+          '(simple-array (unsigned-byte 8) (*))))
 
-(defun suggested-matchings (set grasp-faces binding)
-  "Return those of the matchings SET that give GRASP-FACES, a list of (GRASP-FACE . VARIABLE), the faces that the
-variables have under BINDING."
-  (declare (type matching-set set))
-  (loop for (grasp-face . variable) of-type ((integer 0 5) . (integer 0 5)) in grasp-faces
-        do (setf set (logand set (aref +matchings-with+ grasp-face (term-value variable binding)))))
+(declaim (inline suggested-matchings))
+(defun suggested-matchings (set faces binding)
+  "Return those of the matchings SET that give grasp faces the faces that variables have under
+BINDING; FACES says which, see VARIABLE-FACES."
+  (declare (type matching-set set) (type (simple-array (unsigned-byte 8) (*)) faces))
+  (loop for face across faces
+        do (setf set (logand set (aref +matchings-with+ (ldb (byte 3 0) face)
+                                       (face-list-ref binding (the (integer 0 5) (ash face -3)))))))
   set)
 
 (defun parse-suggestion (operands action)
@@ -50,19 +54,18 @@ return true as the second value."
                                                    A is a proper rotation of X Y Z")))
       (finish-action action
                      (let ((set (constant-matchings terms))
-                           (grasp-faces (variable-faces terms)))
+                           (faces (variable-faces terms)))
                        (lambda (memory rule binding)
                          (declare (ignore rule))
-                         (try-matchings memory grasp (suggested-matchings set grasp-faces binding))
+                         (try-matchings memory grasp (suggested-matchings set faces binding))
                          nil))
                      :terms terms :target grasp))))
 
 (defmethod action-mentions ((verb (eql :try)) operands)
   (and (consp operands) (namep (first operands)) (list (first operands))))
 
-(defmethod symmetric-action-p ((verb (eql :try)) action a b)
-  ;; What the suggestion does not name makes no difference.
-  (notany (lambda (variable) (member variable (action-terms action))) (list a b)))
+(defmethod action-sees-p ((verb (eql :try)) action variable)
+  (member variable (action-terms action)))
 
 (defmethod describe-action ((verb (eql :try)) action)
   (destructuring-bind (grasp &optional suggestion) (action-operands action)
@@ -92,9 +95,9 @@ return true as the second value."
                               (make-stop :verdict :keep :rule rule)))
       (complain (action-form action) "KEEP is (KEEP BEST)")))
 
-(defmethod symmetric-action-p ((verb (eql :keep)) action a b)
-  (declare (ignore action a b))
-  t)
+(defmethod action-sees-p ((verb (eql :keep)) action variable)
+  (declare (ignore action variable))
+  nil)
 
 (defmethod describe-action ((verb (eql :keep)) action)
   (declare (ignore action))

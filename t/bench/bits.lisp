@@ -131,7 +131,7 @@
         (do-pair (s5 s6 other)
           (let ((third (- 3 pair other)))
             (when (and (logbitp s6 free) (not (logbitp third narrow)))
-              (note journal 12 0 (binding s1 s2 s5 s6 (* 2 third) (1+ (* 2 third)))))))))))
+              (note journal 12 0 (binding s1 s2 s5 s6)))))))))
 
 (defun other-cases (journal free parallel small narrow large)
   "GRIP5 and GRIP7 to GRIP10."

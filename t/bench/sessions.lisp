@@ -24,8 +24,8 @@
        nil)
      :terms (supergrip::parse-suggestion (rest (supergrip-chainer:action-operands action)) action))))
 
-(defmethod supergrip-chainer:symmetric-action-p ((verb (eql :pass)) action a b)
-  (supergrip-chainer:symmetric-action-p :try action a b))
+(defmethod supergrip-chainer:action-sees-p ((verb (eql :pass)) action variable)
+  (supergrip-chainer:action-sees-p :try action variable))
 
 (defun without-try (rule)
   "Return the form RULE with PASS in the place of TRY."
