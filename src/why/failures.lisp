@@ -245,10 +245,10 @@ with the figures.  NIL if it is possible."
 
 (defun miss-text (candidate plan)
   "Return why CANDIDATE, the nearest miss of PLAN, is not possible."
-  (or (and (eq (candidate-outcome candidate) :conditions)
-           (with-workspace (workspace plan)
-             (too-wide-text candidate workspace)))
-      (nth-value 1 (candidate-failure candidate plan))))
+  (with-replay (workspace candidate plan)
+    (or (and (eq (candidate-outcome candidate) :conditions)
+             (too-wide-text candidate workspace))
+        (failure-text (candidate-outcome candidate) candidate workspace))))
 
 (defun plan-reason (&optional (plan *plan*))
   "Return why the box of PLAN can't be grasped, a string: what the rule said, or the nearest miss.

@@ -10,10 +10,11 @@
 (defun comparison-operands (node grasp registers)
   "Return the values of the two operands of NODE, a comparison in the conditions of GRASP, on
 REGISTERS, which hold what box and matching give.  NIL if one has no value."
-  (let ((program (cdr (assoc node (grasp-comparisons grasp)))))
+  (declare (type registers registers))
+  (let* ((program (cdr (assoc node (grasp-comparisons grasp) :test #'eq)))
+         (results (program-results program)))
     (and (has-value-p program registers)
-         (values-list (map 'list (lambda (register) (aref registers register))
-                           (program-results program))))))
+         (values (aref registers (aref results 0)) (aref registers (aref results 1))))))
 
 (defun has-value-p (program registers)
   "Run PROGRAM on REGISTERS.  True if it has a value."
@@ -45,9 +46,10 @@ each.  SHORTFALL is how far off it is: 0 to 1, relative; 1 where that can't be s
   node negated (numbers '()) (alternatives '()) (shortfall 1))
 
 (defun relative-difference (a b)
-  "Return by how much A and B differ, 0 to 1, relative to the greater."
+  "Return by how much the doubles A and B differ, 0 to 1, relative to the greater."
+  (declare (double-float a b))
   (let ((most (max (abs a) (abs b))))
-    (if (zerop most) 0 (min 1 (abs (- (/ a most) (/ b most)))))))
+    (if (zerop most) 0d0 (min 1d0 (abs (- (/ a most) (/ b most)))))))
 
 (defun faults (node negated grasp registers)
   "Return the faults of NODE, a test of GRASP that should be true, or false if NEGATED, on REGISTERS,
@@ -72,19 +74,21 @@ which hold what box and matching give: all that would have to change for it to b
 
 (defun joined-faults (node negated all grasp registers)
   "Return the faults of NODE, which joins tests: of each, if ALL must be as they should, else of one."
-  (let ((each (loop for test in (node-args node) collect (faults test negated grasp registers))))
-    (cond (all (reduce #'append each))
-          ((member nil each) '())
-          (t (let ((alternatives (loop for faults in each
-                                       append (or (flat-alternatives faults) (list faults)))))
-               (list (make-fault :node node :negated negated :alternatives alternatives
-                                 :shortfall (reduce #'min alternatives :key #'worst-shortfall))))))))
+  (if all
+      (loop for test in (node-args node) append (faults test negated grasp registers))
+      (let ((alternatives (loop for test in (node-args node)
+                                for faults = (or (faults test negated grasp registers)
+                                                 (return-from joined-faults '()))
+                                append (or (flat-alternatives faults) (list faults)))))
+        (list (make-fault :node node :negated negated :alternatives alternatives
+                          :shortfall (loop for faults in alternatives
+                                           minimize (worst-shortfall faults)))))))
 
 (defun flat-alternatives (faults)
   (and (null (rest faults)) (fault-alternatives (first faults))))
 
 (defun worst-shortfall (faults)
-  (reduce #'max faults :key #'fault-shortfall))
+  (loop for fault in faults maximize (fault-shortfall fault)))
 
 (defun candidate-faults (candidate workspace)
   "Return the faults of the conditions of CANDIDATE, the worst first; WORKSPACE is at its box."
@@ -200,13 +204,18 @@ exchanged if TURNED."
         (or (comparison-opposite comparison) (format nil "not ~a" (operator-name comparison)))
         (operator-name comparison))))
 
+(defun turned-p (node)
+  "True if NODE, a comparison, is told from the side of its second operand."
+  (destructuring-bind (a b) (comparison-nodes node)
+    (and (comparison-mirror (node-comparison node)) (not (plain-operand-p a))
+         (or (plain-operand-p b) (constant-p a)))))
+
 (defun comparison-parts (fault)
   "Return the operand that the FAULT of a comparison is about, its value, what is asked of it (as
 \"<\"), and the other operand, its value and its form."
   (destructuring-bind (a b) (comparison-nodes (fault-node fault))
     (let* ((comparison (node-comparison (fault-node fault)))
-           (turned (and (comparison-mirror comparison) (not (plain-operand-p a))
-                        (or (plain-operand-p b) (constant-p a))))
+           (turned (turned-p (fault-node fault)))
            (nodes (if turned (list b a) (list a b)))
            (numbers (if turned (reverse (fault-numbers fault)) (fault-numbers fault)))
            (forms (operand-forms (node-form (fault-node fault)))))
@@ -273,9 +282,11 @@ exchanged if TURNED."
 (defun clear-p (faults)
   "True if FAULTS are one comparison of something that has a name with a number."
   (and faults (null (rest faults)) (fault-numbers (first faults))
-       (multiple-value-bind (node number op other) (comparison-parts (first faults))
-         (declare (ignore number op))
-         (and (plain-operand-p node) (constant-p other)))))
+       (let ((node (fault-node (first faults))))
+         (destructuring-bind (a b) (comparison-nodes node)
+           (if (turned-p node)
+               (and (plain-operand-p b) (constant-p a))
+               (and (plain-operand-p a) (constant-p b)))))))
 
 (defun free-widths (box)
   "Return the sizes of BOX along the axes whose two faces are free."
