@@ -230,18 +230,24 @@ with the figures.  NIL if it is possible."
         ((> (first a) (+ (first b) +tie+)) nil)
         (t (misses-less-p (rest a) (rest b)))))
 
+(defun farthest (candidates)
+  "Return those of CANDIDATES that failed the last step that one of them failed."
+  (loop for step in (reverse (step-outcomes))
+        thereis (loop for candidate in candidates
+                      when (eq step (candidate-outcome candidate)) collect candidate)))
+
 (defun nearest-miss (candidates plan)
   "Return the one of CANDIDATES of PLAN that got farthest; of several, the one that missed by least."
-  (let* ((step (find-if (lambda (step) (find step candidates :key #'candidate-outcome))
-                        (reverse (step-outcomes))))
-         (best nil) (least nil))
-    (with-workspace (workspace plan)
-      (dolist (candidate candidates best)
-        (when (eq step (candidate-outcome candidate))
-          (let ((shortfalls (failure-shortfalls step (plan-index plan) candidate
+  (let* ((farthest (farthest candidates))
+         (best (first farthest)) (least nil))
+    (when (rest farthest)
+      (with-workspace (workspace plan)
+        (dolist (candidate farthest)
+          (let ((shortfalls (failure-shortfalls (candidate-outcome candidate) (plan-index plan) candidate
                                                 (replay candidate workspace) (first least))))
-            (when (or (null best) (misses-less-p shortfalls least))
-              (setf best candidate least shortfalls))))))))
+            (when (or (null least) (misses-less-p shortfalls least))
+              (setf best candidate least shortfalls))))))
+    best))
 
 (defun miss-text (candidate plan)
   "Return why CANDIDATE, the nearest miss of PLAN, is not possible."
