@@ -178,6 +178,61 @@ order of predicates."
     (is (> fired 10000) "only ~d facts were remembered" fired)
     (is (> exchanging 200) "only ~d rules have interchangeable variables" exchanging)))
 
+;;; Rules that only try, so that bindings may be left out
+
+(defun trying-rule (number state)
+  "Return a rule that only tries, and whose actions see few of its variables."
+  (let* ((clauses (cons (random-element '((opposed (s1 s2)) (not narrow (s1 s2)) (large (s2 s1)))
+                                        state)
+                        (loop repeat (1+ (random 3 state))
+                              collect (random-clause *given-predicates* state))))
+         (others (set-difference (variables-in (list-clauses clauses)) '(s1 s2)))
+         (a1 (if others (random-element (list* '? '? others) state) '?)))
+    `(rule ,(make-symbol (format nil "R~d" number))
+           (if ,@(shuffle clauses state))
+           (then (try ,(random-element '(pinch-3-parallel pinch-2-parallel pinch-3-corner) state)
+                      ,(random-element `((s1 s2 ? ? ,a1 ?) (? ? s2 s1 ,a1 ?) (s1 ? s2 ? ? ?)
+                                         (s1 ? ? ? ? ,a1))
+                                       state))
+                 ,@(when (chance 4 state) '((cant be done)))))))
+
+(defun turned-p (rule)
+  "True if two variables of RULE that its actions see can be exchanged."
+  (let ((actions (supergrip-chainer:rule-actions rule))
+        (count (length (supergrip-chainer:rule-variables rule))))
+    (set-difference (reduce #'append (supergrip-chainer::interchangeable-pairs
+                                      (supergrip-chainer:rule-clauses rule) actions count))
+                    (supergrip-chainer::unseen-variables actions count))))
+
+(defun left-out (rule box knowledge)
+  "Return how many bindings of RULE a run leaves out that finds it as BOX does in the beginning."
+  (let ((memory (supergrip::start-plan box knowledge 0.5d0)))
+    (- (length (supergrip-chainer:rule-bindings rule memory))
+       (supergrip-chainer::find-bindings (supergrip-chainer::rule-matcher rule) memory))))
+
+(test what-is-left-out-would-have-tried-nothing-new
+  (let ((state (sb-ext:seed-random-state 500))
+        (left-out 0) (tested 0) (turned 0))
+    (format t "~&   100 random rule bases, seed 500~%")
+    (dotimes (i 100)
+      (let* ((rules (loop for number from 1 to 5 collect (trying-rule number state)))
+             (knowledge (knowledge-of-rules rules))
+             (oracle (supergrip-oracle:with-oracle-rules rules *oracle*))
+             (boxes (loop repeat 6 collect (random-box state))))
+        (dolist (rule (supergrip:knowledge-rules knowledge))
+          (when (turned-p rule) (incf turned))
+          (dolist (box boxes)
+            (incf tested)
+            (incf left-out (left-out rule box knowledge))))
+        (is (null (first-fault (lambda (box)
+                                 (or (plan-difference box knowledge oracle)
+                                     (watched-run-differs-p box knowledge)))
+                               boxes))
+            "~{~s~%~}" rules)))
+    ;; If nothing were left out, this would say nothing.
+    (is (> left-out tested) "only ~d bindings were left out in ~d runs of a rule" left-out tested)
+    (is (> turned 20) "the turn of a grasp exchanges two variables of only ~d rules" turned)))
+
 ;;; Random facts of one's own
 
 (defparameter *declared* '((fragile 1) (wet 0) (like 2) (trio 3))
