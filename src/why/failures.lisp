@@ -254,7 +254,7 @@ with the figures.  NIL if it is possible."
   (with-replay (workspace candidate plan)
     (or (and (eq (candidate-outcome candidate) :conditions)
              (too-wide-text candidate workspace))
-        (failure-text (candidate-outcome candidate) candidate workspace))))
+        (failure-text (candidate-outcome candidate) (plan-index plan) candidate workspace))))
 
 (defun plan-reason (&optional (plan *plan*))
   "Return why the box of PLAN can't be grasped, a string: what the rule said, or the nearest miss.
