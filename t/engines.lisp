@@ -233,6 +233,18 @@ order of predicates."
     (is (> left-out tested) "only ~d bindings were left out in ~d runs of a rule" left-out tested)
     (is (> turned 20) "the turn of a grasp exchanges two variables of only ~d rules" turned)))
 
+(test a-pair-that-no-action-sees-is-of-two-faces
+  (let ((knowledge (knowledge-of-rules '((rule one (if (constrained (s1)) (constrained (s2))
+                                                       (not narrow (s1 s2)))
+                                                   (then (cant be done)))))))
+    (loop for (faces reason) in '(((:z2) "NO RULE SUGGESTS A GRASP WHOSE SURFACES ARE FREE")
+                                  ((:z2 :x1) "CANT BE DONE"))
+          do (is (equal reason (supergrip:plan-reason
+                                (supergrip:plan
+                                 (substitute `(:constrained ,@faces) :constrained *good-box*
+                                             :key #'first)
+                                 :knowledge knowledge)))))))
+
 ;;; Random facts of one's own
 
 (defparameter *declared* '((fragile 1) (wet 0) (like 2) (trio 3))

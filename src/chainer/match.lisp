@@ -197,8 +197,8 @@ the bindings that would do nothing."
 (defconstant +no-pairs+ #o402010040201 "The bits of a face with itself.")
 
 (defun unseen-pair (clauses bound)
-  "Return the two variables that CLAUSES bind after BOUND, if no action sees them and all CLAUSES are
-of one or two surfaces; else NIL."
+  "Return the two variables that CLAUSES bind after BOUND, if no action sees them and all CLAUSES
+are of one or two surfaces; else NIL."
   (let ((unbound (remove-duplicates
                   (loop for clause in clauses append (unbound-variables clause bound))
                   :from-end t)))
