@@ -71,3 +71,19 @@ other limit is -1), the radius of that kind alone.  Source: the paper, Descripti
   (cond ((minusp velocity-limit) force-radius)
         ((minusp force-limit) velocity-radius)
         (t (+ (* gamma velocity-radius) (* (- 1d0 gamma) force-radius)))))
+
+(defun direction-shares (motion need)
+  "Return the share that each force and torque has in the direction of MOTION: six numbers, whose
+squares add up to 1.
+
+MOTION  six numbers, velocities along X Y Z and rotations about X Y Z, as EXACT-RADIUS returns.
+NEED    six numbers, forces along X Y Z and torques about X Y Z: the task ellipsoid.
+
+The ellipsoid reaches farthest in MOTION at the wrench whose components are these shares of the
+needs.  If MOTION moves nothing that is needed, they are the shares in MOTION itself."
+  (let* ((needed (mapcar #'* motion need))
+         (parts (if (every #'zerop needed) motion needed))
+         (most (reduce #'max parts :key #'abs))
+         (parts (mapcar (lambda (part) (/ part most)) parts))
+         (length (sqrt (reduce #'+ (mapcar #'* parts parts)))))
+    (mapcar (lambda (part) (/ part length)) parts)))
