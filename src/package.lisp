@@ -76,7 +76,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-bound-p #:candidate-exact-radius #:candidate-squeeze #:candidate-friction-margin
    #:candidate-powers #:motion-text
    #:try-grasp
-   #:direction-text
+   #:direction-shares #:direction-text
    ;; what contacts can really do
    #:exact-radius #:holds-p #:contact-forces #:wrench-entries #:least-squeeze #:least-friction
    #:sure-radius
