@@ -41,5 +41,6 @@
                         (supergrip-draw:draw-plan (supergrip:plan *credit-card*)
                                                   (file "credit-card.svg"))
                         (supergrip-draw:draw-quality pencil (file "quality.svg"))
+                        (supergrip-draw:draw-section pencil (file "section.svg"))
                         (supergrip-draw:report pencil (file "pencil.html"))))
       (format t "~a~%" (file-namestring file)))))

@@ -112,6 +112,7 @@
           for plan = (supergrip:plan box)
           do (supergrip-draw:draw-session plan (in-folder folder "~a-session.svg" name))
              (supergrip-draw:draw-quality plan (in-folder folder "~a-quality.svg" name))
+             (supergrip-draw:draw-section plan (in-folder folder "~a-section.svg" name))
              (supergrip-draw:report plan (in-folder folder "~a.html" name)))
     (let ((files (parsed folder)))
       (is (> (length files) 80))
@@ -143,6 +144,7 @@
         (supergrip-draw:draw-plan plan (in-folder folder "~a-plan.svg" weight))
         (supergrip-draw:draw-session plan (in-folder folder "~a-session.svg" weight))
         (supergrip-draw:draw-quality plan (in-folder folder "~a-quality.svg" weight))
+        (supergrip-draw:draw-section plan (in-folder folder "~a-section.svg" weight))
         (supergrip-draw:report-index (list plan) folder)
         (supergrip-draw:report plan (in-folder folder "~a-page.html" weight))))
     (loop for (file complaints) in (parsed folder)
@@ -260,7 +262,8 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
       (signals supergrip:argument-error
         (supergrip-draw:draw-offset (in-folder folder "x.svg") :knowledge 7))
       (dolist (draw (list #'supergrip-draw:draw-plan #'supergrip-draw:draw-session
-                          #'supergrip-draw:draw-quality #'supergrip-draw:report))
+                          #'supergrip-draw:draw-quality #'supergrip-draw:draw-section
+                          #'supergrip-draw:report))
         (signals supergrip:no-plan-error (funcall draw nil (in-folder folder "x.svg")))
         (signals supergrip:no-plan-error (funcall draw "x" (in-folder folder "x.svg")))))
     (is (null (uiop:directory-files folder)) "nothing is written")))
@@ -271,7 +274,8 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                         (1 1d-300 1) (1d10 1 1))
           for plan = (supergrip:plan (apply #'sized-box size))
           do (dolist (draw (list #'supergrip-draw:draw-plan #'supergrip-draw:draw-session
-                                 #'supergrip-draw:draw-quality #'supergrip-draw:report))
+                                 #'supergrip-draw:draw-quality #'supergrip-draw:draw-section
+                                 #'supergrip-draw:report))
                (signals supergrip-draw:drawing-error
                  (funcall draw plan (in-folder folder "x.svg")))))
     (is (null (uiop:directory-files folder)) "nothing is written"))
@@ -374,6 +378,99 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                             (nth-value 1 (supergrip:candidate-failure candidate plan)))
                            text)
                    "~a" name)))))
+
+;;; The true radius
+
+(defun attribute (name text start)
+  "Return the number that the attribute NAME has in TEXT, from START on."
+  (let ((place (+ (search (format nil "~a='" name) text :start2 start) (length name) 2)))
+    (let ((*read-default-float-format* 'double-float) (*read-eval* nil))
+      (read-from-string (substitute #\Space #\' text) t nil :start place))))
+
+(test the-true-radius-stands-beside-the-axes
+  "Of the pencil's best grasp: u_w 1.095; true 0.880, of which 0.879 is proved; sure 0.575."
+  (with-folder (folder)
+    (flet ((shown (draw box)
+             (uiop:read-file-string (funcall draw (supergrip:plan box) (in-folder folder "p")))))
+      (let ((picture (shown #'supergrip-draw:draw-quality *good-box*))
+            (page (shown #'supergrip-draw:report *good-box*)))
+        (dolist (words '("All axes together: 0.879; surely 0.575"
+                         "Least: pushed along −Y and turned about +Y"))
+          (is (search (supergrip-draw::safe words) picture) words)
+          (is (search (supergrip-draw::safe words) page) words))
+        (is (search (supergrip-draw::safe "the contacts bear 0.879 times the forces and torques asked for; they have the least to spare where the box is pushed along −Y and turned about +Y. Their strength on each axis alone already makes sure of 0.575 times.")
+                    page)))
+      (dolist (draw (list #'supergrip-draw:draw-quality #'supergrip-draw:report))
+        (is (not (search "together:" (shown draw (changed-box :force-needed '(0 0 0 0 0 0))))))))))
+
+(test the-bars-of-the-true-radius-are-to-scale
+  "The bar, the one in it, the dashed line and the mark are at true, sure, u_w and 1."
+  (with-folder (folder)
+    (let* ((plan (pencil-plan))
+           (picture (uiop:read-file-string
+                     (supergrip-draw:draw-quality plan (in-folder folder "p.svg")))))
+      (loop with start = 0
+            for candidate in (supergrip:plan-possible plan)
+            repeat 3
+            do (setf start (search ">radius<" picture :start2 (1+ start)))
+               (flet ((at (class name)
+                        (attribute name picture
+                                   (search (format nil "class='~a'" class) picture :start2 start))))
+                 (let* ((left (at "have" "x")) (one (- (at "need" "x1") left)))
+                   (flet ((drawn-p (radius length) (< (abs (- radius (/ length one))) 2d-3)))
+                     (is (drawn-p (supergrip:candidate-exact-radius candidate plan :gap 1d-3)
+                                  (at "have" "width")))
+                     (is (drawn-p (supergrip:candidate-sure candidate plan) (at "sure" "width")))
+                     (is (drawn-p (supergrip:candidate-force-radius candidate)
+                                  (- (at "hidden" "x1") left))))))))))
+
+(defun radius-in-plane (candidate plan axes)
+  "Return the exact radius of CANDIDATE of PLAN for what is needed on AXES alone."
+  (let ((box (supergrip:plan-box plan)))
+    (supergrip:exact-radius
+     (loop for contact in (supergrip:candidate-contacts candidate plan)
+           collect (list (getf contact :position) (getf contact :normal)))
+     (supergrip:box-friction box) (supergrip:box-soft-friction box)
+     (loop for axis below 6
+           for need in (supergrip:box-force-needed box)
+           collect (if (member axis axes) need 0))
+     :gravity (list 0 0 (- (supergrip:box-weight box)) 0 0 0))))
+
+(test a-section-is-what-the-contacts-can-do-in-its-plane
+  "The greatest circle in it, around 0 0, has the exact radius for the needs of its two axes alone."
+  (let ((checked 0))
+    (for-random-boxes (box 100 44)
+      (let* ((plan (supergrip:plan box))
+             (best (supergrip:plan-best plan))
+             (worst (and best (nth-value 2 (supergrip:candidate-exact-radius best plan)))))
+        (when worst
+          (let* ((axes (supergrip-draw::section-axes
+                        worst (supergrip:box-force-needed (supergrip:plan-box plan))))
+                 (drawn (least-radius (supergrip-draw::section-points best plan axes)))
+                 (radius (radius-in-plane best plan axes)))
+            (is (< (abs (- radius drawn)) (+ 2d-3 (* 2d-2 radius))) "~s: ~a ~a" box radius drawn)
+            (incf checked)))))
+    (is (< 10 checked))))
+
+(defun least-radius (outline)
+  "Return the radius of the greatest circle around 0 0 in OUTLINE, a list of points in a round."
+  (loop for (a b) on (append outline (list (first outline)))
+        while b
+        minimize (/ (abs (- (* (first a) (second b)) (* (first b) (second a))))
+                    (supergrip-draw::distance a b))))
+
+(test a-wrench-that-contacts-can-not-exert-is-not-called-sure
+  "ONE-FINGER says that it exerts everything, and only touches the top."
+  (with-folder (folder)
+    (let* ((knowledge (knowledge-with (own-grasp-text "ONE-FINGER" "T" "(A1 0 0)")))
+           (plan (supergrip:try-grasp "ONE-FINGER" (changed-box :constrained)
+                                       :knowledge knowledge))
+           (best (supergrip:plan-best plan)))
+      (is (<= 0.1d0 (supergrip:candidate-sure best plan)))
+      (dolist (draw (list #'supergrip-draw:draw-quality #'supergrip-draw:report))
+        (let ((text (uiop:read-file-string (funcall draw plan (in-folder folder "p")))))
+          (is (search "ogether: the weight is too much" text))
+          (is (not (search "surely 0" text))))))))
 
 (test facts-of-ones-own-are-shown
   (with-folder (folder)

@@ -12,7 +12,7 @@
    ;; the paper's figures
    #:draw-grasps #:draw-offset #:draw-system #:draw-session
    ;; pictures of one plan
-   #:draw-plan #:draw-quality
+   #:draw-plan #:draw-quality #:draw-section
    ;; reports
    #:report #:report-index
    ;; what can't be drawn

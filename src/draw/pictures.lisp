@@ -85,21 +85,35 @@ well it does."
 (defun key-have (x y) (draw-rectangle (- x 12) (- y 6) 24 12 "have"))
 (defun key-need (x y) (draw-line (list x (- y 8)) (list x (+ y 8)) "need"))
 
+(defun key-sure (x y) (draw-rectangle (- x 12) (- y 2) 24 5 "sure"))
+(defun key-index (x y) (draw-line (list x (- y 8)) (list x (+ y 8)) "hidden"))
+
 (defparameter +quality-key+
   '((key-have 26 "what the grasp has, gravity’s load taken off")
     (key-need 6 "what the task needs at the grasp centre")
-    (list 0 "◀ the axis that limits"))
+    (list 0 "◀ the axis that limits")
+    (key-sure 26 "what it surely bears on all axes together")
+    (key-index 6 "u_w"))
   "The key to the bars.")
 
+(defun key-places (signs x y width)
+  "Return where each of SIGNS stands, in lines from X Y no wider than WIDTH: lists of the left end and
+the y of its line, the sign, how wide it is, and its text."
+  (loop with left = x
+        for (sign wide text) in signs
+        for more = (+ wide 8 (text-width text "soft") 18)
+        when (> (+ left more) (+ x width))
+          do (setf left x)
+             (incf y 22)
+        collect (list left y sign wide text)
+        do (incf left more)))
+
+(defun key-height (signs width)
+  "Return how far below its first line the last line of the key of SIGNS is."
+  (second (first (last (key-places signs 0 0 width)))))
+
 (defun draw-key (x y width &key (signs +key+))
-  "Draw the key of SIGNS from X Y in lines no wider than WIDTH.  Returns the y of its last line."
-  (let ((left x))
-    (loop for (sign wide text) in signs
-          for more = (+ wide 8 (text-width text "soft") 18)
-          do (when (> (+ left more) (+ x width))
-               (setf left x)
-               (incf y 22))
-             (funcall sign (+ left (/ wide 2)) (- y 4))
-             (draw-text text (list (+ left wide 8) y) :class "soft")
-             (incf left more))
-    y))
+  "Draw the key of SIGNS from X Y in lines no wider than WIDTH."
+  (loop for (left y sign wide text) in (key-places signs x y width)
+        do (funcall sign (+ left (/ wide 2)) (- y 4))
+           (draw-text text (list (+ left wide 8) y) :class "soft")))

@@ -51,56 +51,68 @@ y below."
         (format nil "~a~:[~; ◀~]" (if (> (length all) 21) (format nil "ratio ~a" ratio) all)
                 limiting))))
 
-(defun draw-candidate-quality (candidate candidates plan place x y width)
-  "Draw the bars of CANDIDATE, the PLACEth best, in the scale of all CANDIDATES."
-  (draw-text (fitting (format nil "~d  ~a" place (candidate-title candidate)) "bold" width)
-             (list x (+ y 16)) :class "bold")
-  (draw-text (fitting (matching-text (candidate-matching candidate)) "soft" width)
-             (list x (+ y 35)) :class "soft")
-  (draw-text (radius-text "Forces, u_w" (candidate-force-radius candidate)
-                          (candidate-force-axis candidate))
-             (list x (+ y 66)))
-  (let ((below (draw-rows (force-rows candidate plan) (candidate-force-axis candidate)
-                          (greatest-of #'force-rows candidates plan) x (+ y 76) width)))
-    (draw-text (radius-text "Velocities, u_t" (candidate-velocity-radius candidate)
-                            (candidate-velocity-axis candidate))
-               (list x (+ below 26)))
-    (draw-rows (velocity-rows candidate plan) (candidate-velocity-axis candidate)
-               (greatest-of #'velocity-rows candidates plan) x (+ below 36) width)))
+(defun draw-candidate-quality (strength strengths plan place x y width)
+  "Draw the bars of the candidate of STRENGTH, the PLACEth best, in the scale of all STRENGTHS."
+  (let ((candidate (strength-candidate strength))
+        (candidates (mapcar #'strength-candidate strengths)))
+    (draw-text (fitting (format nil "~d  ~a" place (candidate-title candidate)) "bold" width)
+               (list x (+ y 16)) :class "bold")
+    (draw-text (fitting (matching-text (candidate-matching candidate)) "soft" width)
+               (list x (+ y 35)) :class "soft")
+    (draw-text (radius-text "Forces, u_w" (candidate-force-radius candidate)
+                            (candidate-force-axis candidate))
+               (list x (+ y 66)))
+    (let ((below (draw-rows (force-rows candidate plan) (candidate-force-axis candidate)
+                            (greatest-of #'force-rows candidates plan) x (+ y 76) width)))
+      (when (strength-upper strength)
+        (draw-strength strength (greatest-radius strengths) x (+ below 6) width))
+      (incf below (strengths-height strengths width))
+      (draw-text (radius-text "Velocities, u_t" (candidate-velocity-radius candidate)
+                              (candidate-velocity-axis candidate))
+                 (list x (+ below 26)))
+      (draw-rows (velocity-rows candidate plan) (candidate-velocity-axis candidate)
+                 (greatest-of #'velocity-rows candidates plan) x (+ below 36) width))))
+
+(defun quality-height (strengths width)
+  "Return how high the bars of one of STRENGTHS are, WIDTH wide."
+  (+ 416 (strengths-height strengths width)))
 
 (defun radius-text (name radius axis)
   (if radius
       (format nil "~a = ~a, limited ~a" name (index-text radius) axis)
       (format nil "~a: none needed" name)))
 
-(defun quality-words (candidate)
-  (format nil "~a: ~a; ~a." (candidate-title candidate)
-          (radius-text "forces, u_w" (candidate-force-radius candidate)
-                       (candidate-force-axis candidate))
-          (radius-text "velocities, u_t" (candidate-velocity-radius candidate)
-                       (candidate-velocity-axis candidate))))
+(defun quality-words (strength)
+  "Return what the bars of STRENGTH show, for those who can't see them."
+  (let ((candidate (strength-candidate strength)))
+    (format nil "~a: ~a; ~a.~@[ ~a~]" (candidate-title candidate)
+            (radius-text "forces, u_w" (candidate-force-radius candidate)
+                         (candidate-force-axis candidate))
+            (radius-text "velocities, u_t" (candidate-velocity-radius candidate)
+                         (candidate-velocity-axis candidate))
+            (strength-words strength))))
 
 (defun quality-picture (plan count)
   "Return the picture of what the COUNT best candidates of PLAN have against what is needed."
-  (let* ((candidates (best-candidates plan count))
-         (wide 380) (high 426)
-         (columns (max 2 (min 3 (length candidates))))
-         (rows (max 1 (ceiling (length candidates) columns)))
+  (let* ((strengths (find-strengths plan count))
+         (wide 380) (high (+ 10 (quality-height strengths (- wide 30))))
+         (columns (max 2 (min 3 (length strengths))))
+         (rows (max 1 (ceiling (length strengths) columns)))
          (width (max 860 (+ 24 (* wide columns)))))
-    (with-picture (width (+ 104 (* high rows))
+    (with-picture (width (+ 104 (* high rows) (key-height +quality-key+ (- width 48)))
                    (format nil "Have against need, ~a" (box-text (plan-box plan)))
                    (format nil "~:[No grasp is possible.~;~:*~{~a~^ ~}~]"
-                           (mapcar #'quality-words candidates)))
-      (draw-heading (if candidates "What each grasp has, against what the task needs"
+                           (mapcar #'quality-words strengths)))
+      (draw-heading (if strengths "What each grasp has, against what the task needs"
                         "No grasp is possible")
                     (list (format nil "~a. Forces in finger forces, torques in finger force × cm, ~
                                        gamma ~a." (box-text (plan-box plan))
                                   (quantity (plan-gamma plan))))
                     width)
-      (loop for candidate in candidates
+      (loop for strength in strengths
             for place from 1
             do (multiple-value-bind (row column) (floor (1- place) columns)
-                 (draw-candidate-quality candidate candidates plan place (+ 24 (* column wide))
+                 (draw-candidate-quality strength strengths plan place (+ 24 (* column wide))
                                          (+ 76 (* row high)) (- wide 30))))
       (draw-key 24 (+ 82 (* high rows)) (- width 48) :signs +quality-key+))))
 

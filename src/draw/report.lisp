@@ -83,12 +83,17 @@ forces in units of one finger’s greatest normal force, torques in their produc
        (format nil "~a: ~a is below 1, so on its tightest axis the grasp has less than the task may ~
                     need." kind (index-text radius))))
 
-(defun sure-text (plan)
-  "Return what the best grasp of PLAN surely bears, or NIL if no force is needed."
-  (let ((sure (candidate-sure (plan-best plan) plan)))
-    (and sure
-         (format nil "What is sure: together, and in any direction, the contacts bear ~a times the ~
-                      forces and torques asked for." (quantity sure 3)))))
+(defun together-text (plan)
+  "Return what the best grasp of PLAN bears on all axes together, or NIL if no force is needed."
+  (let* ((strength (find-strength (plan-best plan) plan))
+         (radius (true-radius-text strength)))
+    (cond ((null radius) nil)
+          ((minusp (strength-upper strength))
+           (format nil "Together: ~a for the contacts." radius))
+          (t (format nil "Together, and in any direction, the contacts bear ~a times the forces and ~
+                          torques asked for; they have the least to spare where the box is ~a.~@[ ~
+                          Their strength on each axis alone already makes sure of ~a times.~]"
+                     radius (strength-worst strength) (sure-text strength))))))
 
 (defun put-meaning (plan)
   "Write in plain words what the quality index of PLAN and its radii mean."
@@ -102,7 +107,7 @@ forces in units of one finger’s greatest normal force, torques in their produc
                   spare there.~@[  ~a~]~@[  ~a~]~@[  ~a~]"
                  (weak-text "Forces" (candidate-force-radius best))
                  (weak-text "Velocities" (candidate-velocity-radius best))
-                 (sure-text plan)))))))
+                 (together-text plan)))))))
 
 ;;; The box
 
@@ -202,7 +207,9 @@ forces in units of one finger’s greatest normal force, torques in their produc
 (defun put-best (plan)
   "Write the pictures of the three best grasps of PLAN, and of what they have against what is
 needed."
-  (let* ((candidates (best-candidates plan 3))
+  (let* ((strengths (find-strengths plan 3))
+         (candidates (mapcar #'strength-candidate strengths))
+         (high (+ 18 (quality-height strengths 350)))
          (subjects (loop for candidate in candidates collect (grasp-subject candidate plan)))
          (camera (best-camera subjects))
          (scale (cell-scale camera subjects 366 364)))
@@ -219,11 +226,12 @@ needed."
                       nil)))
       (:h3 "What they have, against what the task needs")
       (:div :class "row"
-            (loop for candidate in candidates
+            (loop for strength in strengths
+                  for candidate in candidates
                   for place from 1
                   do (put-figure
-                      (with-picture (374 434 (candidate-title candidate) (quality-words candidate))
-                        (draw-candidate-quality candidate candidates plan place 12 12 350))
+                      (with-picture (374 high (candidate-title candidate) (quality-words strength))
+                        (draw-candidate-quality strength strengths plan place 12 12 350))
                       nil)))
       (put-key +quality-key+))))
 
