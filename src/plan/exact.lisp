@@ -179,19 +179,17 @@ not become the best, and was not looked at more closely."
             (let ((,grip (contacts-grip ,candidate ,workspace)) (,box (workspace-box ,workspace)))
               ,@body)))))
 
-(defun candidate-exact-radius (candidate &optional (plan *plan*))
+(defun candidate-exact-radius (candidate plan &key (gap 0.01d0) (absolute 0.002d0))
   "Return what the contacts of CANDIDATE of PLAN can really do, by whatever index the plan was made:
 the exact force radius, an upper value, the certified lower one, or NIL, and the worst motion, a list
-of six, as EXACT-RADIUS does.  NIL if it is not possible, or the task needs no force."
-  (let ((strength (%candidate-strength candidate)))
-    (flet ((answer (upper lower worst) (values upper lower (coerce worst 'list))))
-      (cond ((every #'zerop (%box-force (plan-box (need-plan plan)))) nil)
-            ((and strength (possible-p candidate) (not (%candidate-bound candidate)))
-             (answer (strength-upper strength) (strength-lower strength) (strength-worst strength)))
-            (t (with-grip (grip box candidate plan)
-                 (multiple-value-bind (upper lower worst)
-                     (grip-radius grip (%box-force box) (gravity-on box))
-                   (answer upper lower worst))))))))
+of six, as EXACT-RADIUS does, which explains GAP and ABSOLUTE.  NIL if it is not possible, or the task
+needs no force."
+  (unless (every #'zerop (%box-force (plan-box (need-plan plan))))
+    (with-grip (grip box candidate plan)
+      (multiple-value-bind (upper lower worst)
+          (grip-radius grip (%box-force box) (gravity-on box)
+                       (coerce gap 'double-float) (coerce absolute 'double-float))
+        (values upper lower (coerce worst 'list))))))
 
 (defun candidate-squeeze (candidate &optional (plan *plan*))
   "Return the least cap on each finger's force with which the contacts of CANDIDATE of PLAN surely do
