@@ -398,8 +398,10 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                          "Least: pushed along −Y and turned about +Y"))
           (is (search (supergrip-draw::safe words) picture) words)
           (is (search (supergrip-draw::safe words) page) words))
-        (is (search (supergrip-draw::safe "the contacts bear 0.879 times the forces and torques asked for; they have the least to spare where the box is pushed along −Y and turned about +Y. Their strength on each axis alone already makes sure of 0.575 times.")
-                    page)))
+        (dolist (words '("the contacts bear 0.879 times the forces and torques asked for; "
+                         "the least to spare where the box is pushed along −Y and turned about +Y."
+                         "on each axis alone already makes sure of 0.575 times."))
+          (is (search (supergrip-draw::safe words) page) words)))
       (dolist (draw (list #'supergrip-draw:draw-quality #'supergrip-draw:report))
         (is (not (search "together:" (shown draw (changed-box :force-needed '(0 0 0 0 0 0))))))))))
 

@@ -97,8 +97,8 @@ well it does."
   "The key to the bars.")
 
 (defun key-places (signs x y width)
-  "Return where each of SIGNS stands, in lines from X Y no wider than WIDTH: lists of the left end and
-the y of its line, the sign, how wide it is, and its text."
+  "Return where each of SIGNS stands, in lines from X Y no wider than WIDTH: lists of the left end
+and the y of its line, the sign, how wide it is, and its text."
   (loop with left = x
         for (sign wide text) in signs
         for more = (+ wide 8 (text-width text "soft") 18)

@@ -90,8 +90,8 @@ forces in units of one finger’s greatest normal force, torques in their produc
     (cond ((null radius) nil)
           ((minusp (strength-upper strength))
            (format nil "Together: ~a for the contacts." radius))
-          (t (format nil "Together, and in any direction, the contacts bear ~a times the forces and ~
-                          torques asked for; they have the least to spare where the box is ~a.~@[ ~
+          (t (format nil "Together, and in any direction, the contacts bear ~a times the forces ~
+                          and torques asked for; they have the least to spare where the box is ~a.~@[ ~
                           Their strength on each axis alone already makes sure of ~a times.~]"
                      radius (strength-worst strength) (sure-text strength))))))
 

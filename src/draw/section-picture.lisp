@@ -38,8 +38,8 @@ are needed before others."
     low))
 
 (defun section-points (candidate plan axes)
-  "Return the outline of what CANDIDATE of PLAN can do beside the weight in the plane of two AXES, no
-other force or torque being exerted: points in units of what the task needs."
+  "Return the outline of what CANDIDATE of PLAN can do beside the weight in the plane of two AXES,
+no other force or torque being exerted: points in units of what the task needs."
   (let* ((box (plan-box plan))
          (contacts (loop for contact in (candidate-contacts candidate plan)
                          collect (list (getf contact :position) (getf contact :normal))))
@@ -71,11 +71,11 @@ other force or torque being exerted: points in units of what the task needs."
     (remove nil
             `(("need" "1" "what the task needs, in every direction")
               ("hidden" ,(index-text (candidate-force-radius candidate))
-                        "u_w, the paper’s index. It looks at one axis at a time, and takes the dashed ~
-                         line for what the grasp can do.")
+                        "u_w, the paper’s index. It looks at one axis at a time, and takes the ~
+                         dashed line for what the grasp can do.")
               ("ring" ,(true-radius-text strength)
-                      "the true radius, on all axes together. In this plane, the contacts can really ~
-                       do what is filled.")
+                      "the true radius, on all axes together. In this plane, the contacts can ~
+                       really do what is filled.")
               ,(and (strength-sure strength)
                     `("dots" ,(sure-text strength)
                              "what is sure from the strength on each axis alone"))))))
@@ -101,7 +101,8 @@ there, straight towards 0 0."
         collect (list (* part x) (* part y))))
 
 (defun fit-points (points area)
-  "Return a function that maps a point, y upward, into AREA so that all POINTS are in it, in one scale."
+  "Return a function that maps a point, y upward, into AREA so that all POINTS are in it, in one
+scale."
   (destructuring-bind (x y width height) area
     (destructuring-bind (left low wide high) (bounds points)
       (let ((unit (min (/ width wide) (/ height high))))
@@ -142,17 +143,18 @@ there, straight towards 0 0."
   "Return the lines below the heading of the section of STRENGTH of PLAN in the plane of AXES."
   (list (format nil "~a: ~a." (box-text (plan-box plan))
                 (candidate-title (strength-candidate strength)))
-        (format nil "To the right: ~a; up: ~a. Both in units of what the task needs, up to ~a; the ~
-                     weight is borne as well." (axis-words (first axes)) (axis-words (second axes))
-                     (quantity (section-reach strength)))))
+        (format nil "To the right: ~a; up: ~a." (axis-words (first axes))
+                (axis-words (second axes)))
+        (format nil "Both in units of what the task needs, up to ~a; the weight is borne as well."
+                (quantity (section-reach strength)))))
 
 (defun draw-section-of (strength plan width)
   "Draw the section of STRENGTH of PLAN, with its heading and its signs, WIDTH wide."
   (let ((axes (section-axes (strength-motion strength) (box-force-needed (plan-box plan)))))
     (draw-heading "What the contacts can do, and what the index takes for it"
                   (section-heading strength plan axes) width)
-    (draw-section-plot strength plan axes '(24 96 456 440))
-    (let ((y (draw-signs (section-signs strength) 510 120 (- width 534))))
+    (draw-section-plot strength plan axes '(24 112 456 430))
+    (let ((y (draw-signs (section-signs strength) 510 132 (- width 534))))
       (loop for line in (filled (format nil "The least to spare: ~a." (strength-worst strength))
                                 "plain" (- width 534))
             for below from y by 19
@@ -173,9 +175,9 @@ there, straight towards 0 0."
           (draw-section-of strength plan width)))))
 
 (defun draw-section (plan file)
-  "Draw what the contacts of the best grasp of PLAN can do beside the weight, what the index takes for
-it, and what the task needs, into FILE, an SVG picture.  Returns FILE.
+  "Draw what the contacts of the best grasp of PLAN can do beside the weight, what the index takes
+for it, and what the task needs, into FILE, an SVG picture.  Returns FILE.
 
-It is a section: the plane of the two forces or torques that count most where the grasp has the least
-to spare, every other one being 0.  The radii in words are those on all axes together."
+It is a section: the plane of the two forces or torques that count most where the grasp has the
+least to spare, every other one being 0.  The radii in words are those on all axes together."
   (drawing ((need-plan plan)) (save-picture (section-picture plan) file)))

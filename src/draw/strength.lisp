@@ -1,13 +1,13 @@
-;;;; strength.lisp -- what the contacts of a candidate can really bear, beside u_w, in words and as a
-;;;; bar.
+;;;; strength.lisp -- what the contacts of a candidate can really bear, beside u_w, in words and as
+;;;; a bar.
 
 (in-package :supergrip-draw)
 
 (defstruct strength
-  "What CANDIDATE really bears of its task, on all axes together: UPPER and LOWER, of its exact radius,
-MOTION, its worst one, WORST, the same in words, and SURE, its sure radius.  All are NIL if the task needs no force
-or the numbers are out of range; LOWER is if it is not proved.  SURE is if it is above UPPER: then the
-grasp's WRENCH promises more than its contacts can exert."
+  "What CANDIDATE really bears of its task, on all axes together: UPPER and LOWER, of its exact
+radius, MOTION, its worst one, WORST, the same in words, and SURE, its sure radius.  All are NIL if
+the task needs no force or the numbers are out of range; LOWER is if it is not proved.  SURE is if it is
+above UPPER: then the grasp's WRENCH promises more than its contacts can exert."
   candidate upper lower motion worst sure)
 
 (defun with-minus (text)
@@ -31,7 +31,7 @@ grasp's WRENCH promises more than its contacts can exert."
   (loop for candidate in (best-candidates plan count) collect (find-strength candidate plan)))
 
 (defun shown-radius (strength)
-  "Return the exact radius of STRENGTH: what is proved, or the most that it can be; NIL if there is none."
+  "Return what is proved of the exact radius of STRENGTH, or the most that it can be, or NIL."
   (or (strength-lower strength) (strength-upper strength)))
 
 (defun true-radius-text (strength)
@@ -56,14 +56,16 @@ grasp's WRENCH promises more than its contacts can exert."
   (filled (format nil "Least: ~a" (strength-worst strength)) "soft" width))
 
 (defun strengths-height (strengths width)
-  "Return how high DRAW-STRENGTH draws each of STRENGTHS, WIDTH wide: 0 if there is nothing to draw."
+  "Return how high DRAW-STRENGTH draws each of STRENGTHS, WIDTH wide: 0 if there is nothing to
+draw."
   (loop for strength in strengths
         maximize (if (strength-upper strength)
                      (+ 66 (* 18 (length (worst-lines strength width))))
                      0)))
 
 (defun strength-words (strength)
-  "Return what is borne on all axes together, a sentence for those who can't see the picture, or NIL."
+  "Return what is borne on all axes together, a sentence for those who can't see the picture, or
+NIL."
   (and (strength-upper strength)
        (format nil "~a; least: ~a." (strength-text strength) (strength-worst strength))))
 
@@ -74,8 +76,8 @@ grasp's WRENCH promises more than its contacts can exert."
                       (or (candidate-force-radius (strength-candidate strength)) 0))))
 
 (defun draw-strength (strength most x y width)
-  "Draw what is borne on all axes together in a row like those of DRAW-ROWS, MOST being at its end: a
-bar for the exact radius, in it one for the sure radius, a thick mark at 1, a dashed line at u_w."
+  "Draw what is borne on all axes together in a row like those of DRAW-ROWS, MOST being at its end:
+a bar for the exact radius, in it one for the sure radius, a thick mark at 1, a dashed line at u_w."
   (let* ((left (+ x 66)) (room (- width 66 156)) (top (+ y 30))
          (u-w (candidate-force-radius (strength-candidate strength))))
     (flet ((x-of (radius) (+ left (* room (/ (max 0 radius) most)))))
