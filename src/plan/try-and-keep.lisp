@@ -67,21 +67,6 @@ return true as the second value."
 (defmethod action-sees-p ((verb (eql :try)) action variable)
   (member variable (action-terms action)))
 
-(defun keeps-grasp-p (turn grasp)
-  "True if TURN leaves GRASP the same, and with it all that is the same as GRASP."
-  (loop for matching across +matchings+
-        always (= (aref (grasp-same grasp) (matching-index matching))
-                  (aref (grasp-same grasp) (matching-index (turned matching turn))))))
-
-(defmethod symmetric-action-p ((verb (eql :try)) action a b)
-  ;; The exchange may be a turn that leaves the grasp the same: what was tried is not tried again.
-  (or (call-next-method)
-      (loop with terms = (action-terms action)
-            with exchanged = (sublis (list (cons a b) (cons b a)) terms)
-            for (nil turn) in +turns+
-            thereis (and (equal exchanged (map 'list (lambda (place) (nth place terms)) turn))
-                         (keeps-grasp-p turn (action-target action))))))
-
 (defmethod describe-action ((verb (eql :try)) action)
   (destructuring-bind (grasp &optional suggestion) (action-operands action)
     (format nil "try ~a~@[ with ~{~a~^, ~}~]" grasp
