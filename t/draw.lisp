@@ -428,15 +428,11 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
 
 (defun radius-in-plane (candidate plan axes)
   "Return the exact radius of CANDIDATE of PLAN for what is needed on AXES alone."
-  (let ((box (supergrip:plan-box plan)))
-    (supergrip:exact-radius
-     (loop for contact in (supergrip:candidate-contacts candidate plan)
-           collect (list (getf contact :position) (getf contact :normal)))
-     (supergrip:box-friction box) (supergrip:box-soft-friction box)
-     (loop for axis below 6
-           for need in (supergrip:box-force-needed box)
-           collect (if (member axis axes) need 0))
-     :gravity (list 0 0 (- (supergrip:box-weight box)) 0 0 0))))
+  (exact-radius-of
+   (candidate-case candidate plan
+                   (loop for axis below 6
+                         for need in (supergrip:box-force-needed (supergrip:plan-box plan))
+                         collect (if (member axis axes) need 0)))))
 
 (test a-section-is-what-the-contacts-can-do-in-its-plane
   "The greatest circle in it, around 0 0, has the exact radius for the needs of its two axes alone."

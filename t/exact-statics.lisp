@@ -51,10 +51,6 @@ of the weight is held."
     (declare (ignore need rest))
     (+ (power-of contacts u v motion) (dot gravity motion))))
 
-(defun exact-radius-of (case &rest keys)
-  (destructuring-bind (contacts u v need gravity &rest rest) case
-    (declare (ignore rest))
-    (apply #'supergrip:exact-radius contacts u v need :gravity gravity keys)))
 
 (defun bounds (case &rest keys)
   "Return the upper and the lower value of CASE; both are numbers."
@@ -318,14 +314,6 @@ certified."
   (is (null (supergrip:sure-radius '(1 1 1 1 1 1) '(0 0 0 0 0 0))))
   (is (zerop (supergrip:sure-radius '(1 1 1 0 1 1) '(1 0 0 0 0 0))))
   (is (zerop (supergrip:sure-radius '(1 1 1 1 1 1) '(1 0 0 0 0 0) :gravity '(0 0 -2 0 0 0)))))
-
-(defun candidate-case (candidate plan need)
-  "Return the case of CANDIDATE, a possible one of PLAN, with the task NEED."
-  (let ((box (supergrip:plan-box plan)))
-    (list (loop for contact in (supergrip:candidate-contacts candidate plan)
-                collect (list (getf contact :position) (getf contact :normal)))
-          (supergrip:box-friction box) (supergrip:box-soft-friction box) need
-          (list 0 0 (- (supergrip:box-weight box)) 0 0 0))))
 
 (defun candidate-sure-radius (candidate plan case)
   (supergrip:sure-radius (supergrip:candidate-wrench candidate plan) (fourth case)

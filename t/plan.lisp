@@ -22,7 +22,7 @@
                        supergrip:candidate-wrench supergrip:candidate-twist
                        supergrip:candidate-sure supergrip:candidate-failure
                        supergrip:candidate-load supergrip:candidate-force-need
-                       supergrip:candidate-velocity-need supergrip:candidate-exact-radius))
+                       supergrip:candidate-velocity-need))
       (funcall reader object plan)
       (funcall reader object)))
 

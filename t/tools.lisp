@@ -620,3 +620,20 @@ Half of the boxes are of a size that a hand can hold."
 
 (defun lisp-record (line)
   (let ((*read-eval* nil)) (read-from-string line)))
+
+;;; What contacts can really do
+
+(defun candidate-case (candidate plan need)
+  "Return the case of CANDIDATE, a possible one of PLAN, with the task NEED: (contacts u v need gravity),
+what the functions of statics are asked with."
+  (let ((box (supergrip:plan-box plan)))
+    (list (loop for contact in (supergrip:candidate-contacts candidate plan)
+                collect (list (getf contact :position) (getf contact :normal)))
+          (supergrip:box-friction box) (supergrip:box-soft-friction box) need
+          (list 0 0 (- (supergrip:box-weight box)) 0 0 0))))
+
+(defun exact-radius-of (case &rest keys)
+  "Return what EXACT-RADIUS says of CASE, KEYS being its keys."
+  (destructuring-bind (contacts u v need gravity &rest rest) case
+    (declare (ignore rest))
+    (apply #'supergrip:exact-radius contacts u v need :gravity gravity keys)))

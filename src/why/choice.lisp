@@ -46,8 +46,8 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
   "What limits an exact radius: AXIS is that of the greatest component of MOTION, the worst, in which
 the task NEEDS the power 1 times the radius; HAS is a list of what pressing, friction, the fingertips'
 torque and the weight give there, together UPPER; RADIUS is what the grasp counts with, and CERTIFIED
-the proved one, or NIL."
-  motion upper certified)
+the proved one, or NIL.  DIRECTION is MOTION in words."
+  motion direction upper certified)
 
 (defun exact-force-limit (candidate plan)
   "Return the EXACT-LIMIT of u_w of CANDIDATE."
@@ -55,7 +55,9 @@ the proved one, or NIL."
     (make-exact-limit :axis (candidate-force-axis candidate) :needs 1d0
                       :has (candidate-powers candidate motion plan)
                       :radius (candidate-force-radius candidate)
-                      :motion motion :upper upper :certified certified)))
+                      :motion motion :upper upper
+                      :direction (direction-text motion (box-force-needed (plan-box plan)))
+                      :certified certified)))
 
 (defgeneric force-limit-by (index candidate plan)
   (:documentation "Return the LIMIT of u_w of CANDIDATE of PLAN, which is by INDEX.")
@@ -159,7 +161,7 @@ choice to change."
   (:method ((limit exact-limit) stream)
     (format stream "Force is limited where the box is ~a: radius ~a~:[, not proved~;, proved~], and at ~
                     most ~a.~%"
-            (motion-text (exact-limit-motion limit) "pushed" "turned")
+            (exact-limit-direction limit)
             (three-decimals (limit-radius limit)) (exact-limit-certified limit)
             (three-decimals (exact-limit-upper limit)))
     (format stream "  There pressing gives ~a, friction ~a, the fingertips' torque ~a, the weight ~a; ~

@@ -1,8 +1,8 @@
-;;;; worst-direction.lisp -- what the contacts of a candidate can really do, and where it is least.
+;;;; motions.lisp -- motions in words, and where the contacts of a candidate have the least to spare.
 
 (in-package :supergrip-test)
-(define-suite worst-direction
-  "What the contacts of a candidate can really do, and where it is least.")
+(define-suite motions
+  "Motions in words, and where the contacts of a candidate have the least to spare.")
 
 (test the-pencil-has-its-true-radius
   "u_w is 1.095; cone programming says 0.880."
