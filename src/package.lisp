@@ -81,7 +81,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:exact-radius #:holds-p #:contact-forces #:wrench-entries #:least-squeeze #:least-friction
    #:sure-radius
    ;; conditions, from the data layer
-   #:supergrip-error #:input-error #:input-error-problems #:syntax-error #:box-error
+   #:supergrip-error #:input-error #:input-error-problems #:input-error-consequence #:syntax-error #:box-error
    #:knowledge-error #:knowledge-warning #:knowledge-warning-problems #:retry
    #:no-box-error #:no-plan-error #:no-grasp-error #:no-rule-error #:no-fact-error
    #:gamma-error #:argument-error

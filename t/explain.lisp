@@ -352,9 +352,30 @@
          (supergrip:unbreak)
          (supergrip:break-on '(corner (x2 z1 y1)))
          (is (equal '("(CORNER (Z1 Y1 X2)) is known") (stops #'go-on)))
+         (supergrip:break-on 'pinch-3-c-shape)
+         (is (equal '("(CORNER (Z1 Y1 X2)) is known"
+                      "PINCH-3-C-SHAPE (Y2 Y1 Z2 Z1 X1 X2) was tried: it is possible"
+                      "PINCH-3-C-SHAPE (Y1 Y2 X1 X2 Z2 Z1) was tried: it is possible")
+                    (stops #'go-on)))
+         (supergrip:unbreak "pinch-3-c-shape")
          (supergrip:unbreak '(corner (x2 z1 y1)))
          (is (null (stops #'go-on))))
     (supergrip:unbreak)))
+
+(test a-rule-that-is-running-has-not-said-all-yet
+  (let ((lines '()))
+    (unwind-protect
+         (handler-bind ((supergrip:chain-break
+                          (lambda (condition)
+                            (declare (ignore condition))
+                            (setf lines (printed (supergrip:how '(corner (z1 y1 x2)))))
+                            (invoke-restart 'continue))))
+           (supergrip:break-on '(corner (z1 y2 x2)))
+           (printed (supergrip:forward-chain :box (paper-box))))
+      (supergrip:unbreak))
+    (is (equal "(CORNER (Z1 Y1 X2)) is not known." (first lines)))
+    (is (search "RULE SURFACES3 is running, with " (second lines)))
+    (is (search ", and has not come to this yet." (second lines)))))
 
 (test steps-go-from-rule-to-rule
   (let ((count 0))

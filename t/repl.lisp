@@ -106,7 +106,7 @@
              supergrip:load-knowledge :rules 3)
             ("() is not the name of a file: that is a string, or a path without wild cards"
              supergrip:load-knowledge :grasps ())
-            ("3 is not a break: a break is a rule's name or a fact, such as (PARALLEL (Y2 Y1))" supergrip:unbreak 3)
+            ("3 is not a break: a break is the name of a rule or a grasp, or a fact, such as (PARALLEL (Y2 Y1))" supergrip:unbreak 3)
             ("COLOUR is not a key of a box: keys are SIZE, WEIGHT, U, V, CONSTRAINED, FORCE-NEEDED, VELOCITY-NEEDED, NAME, FACTS"
              supergrip:box-value ,(supergrip:plan-box plan) :colour))
           do (is (equal text (error-text (apply function arguments)))))
@@ -162,3 +162,15 @@
     (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp)) "then it is the plan")
     (is (equal '("RULE GRIP4 did not fire: clause 1, (OBJECT HAS NO PARALLEL SURFACES), fails.")
                (subseq (printed (supergrip:why-not 'grip4)) 0 1)))))
+
+(test a-box-that-is-refused-leaves-the-current-one
+  (let ((former (supergrip::current-box)))
+    (unwind-protect
+         (flet ((told (text)
+                  (search text (error-text (setf (supergrip::current-box) '((:size 1 2)))))))
+           (setf supergrip::*box* nil)
+           (is (not (told "current box")))
+           (setf (supergrip::current-box) (paper-box))
+           (is (told (format nil "~%The current box stays as it was.")))
+           (is (equal '(12d0 2d0 2d0) (supergrip:box-size (supergrip::current-box)))))
+      (setf supergrip::*box* former))))

@@ -55,9 +55,13 @@ far as it is known; SUBJECT is the rule, grasp or box (\"RULE GRIP1\"), PLACE th
 
 (define-condition input-error (supergrip-error)
   ((problems :initarg :problems :reader input-error-problems
-             :documentation "The list of PROBLEMs, all of them, in the order of the file."))
+             :documentation "The list of PROBLEMs, all of them, in the order of the file.")
+   (consequence :initform nil :accessor input-error-consequence
+                :accessor knowledge-error-consequence
+                :documentation "A sentence on what this leaves in force, or NIL."))
   (:report (lambda (condition stream)
-             (format stream "~{~a~^~%~}" (input-error-problems condition))))
+             (format stream "~{~a~^~%~}~@[~%~a~]" (input-error-problems condition)
+                     (input-error-consequence condition))))
   (:documentation "Something that was given to SUPER-GRIP can't be used."))
 
 (define-condition syntax-error (input-error) ()
@@ -66,12 +70,7 @@ far as it is known; SUBJECT is the rule, grasp or box (\"RULE GRIP1\"), PLACE th
 (define-condition box-error (input-error) ()
   (:documentation "A box description is not valid."))
 
-(define-condition knowledge-error (input-error)
-  ((consequence :initform nil :accessor knowledge-error-consequence
-                :documentation "A sentence on what this leaves in force, or NIL."))
-  (:report (lambda (condition stream)
-             (format stream "~{~a~^~%~}~@[~%~a~]" (input-error-problems condition)
-                     (knowledge-error-consequence condition))))
+(define-condition knowledge-error (input-error) ()
   (:documentation "Rules or grasps are not valid.  Restarts: RETRY reads the files again, CONTINUE
 goes on without the rules and grasps that are wrong."))
 

@@ -20,7 +20,7 @@ in them.")
    ;; text
    #:plainly #:plain-text #:define-printing
    ;; conditions
-   #:supergrip-error #:argument-error #:refuse-argument #:input-error #:input-error-problems
+   #:supergrip-error #:argument-error #:refuse-argument #:input-error #:input-error-problems #:input-error-consequence
    #:syntax-error #:box-error #:knowledge-error #:knowledge-error-consequence
    #:knowledge-warning    #:knowledge-warning-problems
    #:retry

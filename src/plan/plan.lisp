@@ -56,6 +56,11 @@ or NIL."
       (cond (rule (rule-name rule))
             (grasp (grasp-name grasp))))))
 
+(defun fact-form-p (object)
+  "True if OBJECT is a list, or a string that spells one, and no rule or grasp in force."
+  (or (and (consp object) (null (name-of object)))
+      (and (stringp object) (find #\( object))))
+
 (defun listed (names &optional (most 40) (between ", "))
   "Return NAMES, a list of strings, with BETWEEN between them; of many the first MOST, and how many
 more."

@@ -8,7 +8,11 @@
 
 (defun (setf current-box) (description)
   "Check DESCRIPTION and make it the box of FORWARD-CHAIN.  On a BOX-ERROR the former one stays."
-  (setf *box* (if (box-p description) description (parse-box description))))
+  (handler-bind ((box-error (lambda (condition)
+                              (when *box*
+                                (setf (input-error-consequence condition)
+                                      "The current box stays as it was.")))))
+    (setf *box* (if (box-p description) description (parse-box description)))))
 
 (define-symbol-macro box (current-box))
 

@@ -7,7 +7,7 @@
 many bindings, 3 also every action and the candidates that fail, 4 also what meets each clause.")
 
 (defvar *traced* '() "The names of the rules and grasps that are traced, strings.")
-(defvar *breaks* '() "The names of rules and the canonical facts on which a run stops.")
+(defvar *breaks* '() "The names of rules and grasps, and the canonical facts, on which a run stops.")
 
 (defun check-trace-level (level)
   "Return the level of trace LEVEL, 0 for NIL."
@@ -43,9 +43,10 @@ the names of all that is traced."
   (apply #'untrace-rule names))
 
 (defun break-on (what)
-  "Stop a run of FORWARD-CHAIN in the debugger before the rule WHAT, a symbol or a string, or when the
-fact WHAT, as '(PARALLEL (Y2 Y1)), becomes known.  Returns all breaks."
-  (unless (and (consp what) (null (name-of what)))
+  "Stop a run of FORWARD-CHAIN in the debugger before the rule WHAT, a symbol or a string, after each
+candidate of the grasp WHAT, or when the fact WHAT, as '(PARALLEL (Y2 Y1)), becomes known.  Returns all
+breaks."
+  (unless (fact-form-p what)
     (check-name what))
   (pushnew (break-text what) *breaks* :test #'string=)
   *breaks*)
@@ -56,7 +57,7 @@ fact WHAT, as '(PARALLEL (Y2 Y1)), becomes known.  Returns all breaks."
         ((consp what)
          (multiple-value-call #'sorted-fact-text
            (parse-fact what (knowledge-rulebase *knowledge*))))
-        (t (refuse-argument "~a is not a break: a break is a rule's name or a fact, such as ~
+        (t (refuse-argument "~a is not a break: a break is the name of a rule or a grasp, or a fact, such as ~
                              (PARALLEL (Y2 Y1))"
                             (form-text what)))))
 
@@ -90,6 +91,10 @@ rule, CONTINUE to the next break."))
       (continue ()
         :report "Go on to the next break."
         (setf *stepping* nil)))))
+
+(defun broken-p (name)
+  "True if NAME is that of a rule or a grasp to stop on."
+  (member name *breaks* :test #'string=))
 
 (defun fact-broken-p (event rulebase)
   "True if the fact of EVENT is one to stop on, its faces in any order."
@@ -135,7 +140,12 @@ rule, CONTINUE to the next break."))
   "Write LOG, what an action of PLAN added to the log, of a rule that is TRACED or not.  IN-HAND
 returns the plan as it is now."
   (do-log (log)
-    (candidate (write-tried candidate plan level traced stream))
+    (candidate
+     (write-tried candidate plan level traced stream)
+     (when (broken-p (candidate-grasp candidate))
+       (pause (funcall in-hand) "~a (~{~a~^ ~}) was tried: ~:[it fails at ~a~;it is possible~]"
+              (candidate-grasp candidate) (candidate-matching candidate)
+              (candidate-quality candidate) (symbol-name (candidate-outcome candidate)))))
     (event
      (when (or traced (plusp level))
        (write-event event (plan-rulebase plan) stream))
@@ -151,7 +161,7 @@ for."
     (lambda (what &rest arguments)
       (ecase what
         (:rule (let ((rule (first arguments)))
-                 (when (or *stepping* (member (rule-name rule) *breaks* :test #'string=))
+                 (when (or *stepping* (broken-p (rule-name rule)))
                    (pause (plan-in-hand plan memory rule nil)
                           "before ~a" (form-text (rule-form rule))))
                  (when (full-p rule 4)

@@ -90,10 +90,6 @@ by that for its box: what is known of the box is the same."
                           (make-goal :test #'plan-best :winner #'identity))))
       answer)))
 
-(defun fact-form-p (object)
-  "True if OBJECT is a list, or a string that spells one."
-  (or (consp object) (and (stringp object) (find #\( object))))
-
 (defun explain-requirement (what &optional (plan *plan*))
   "Return the REQUIREMENT of the box of PLAN for WHAT: a fact, as '(SMALL (Y2 Y1)), which may have
 NOT or NO among its words, or the name of a rule or a grasp, a symbol or a string."

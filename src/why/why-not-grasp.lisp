@@ -179,7 +179,7 @@ MATCHING, six faces, if that is given.  NAME is a symbol or a string; where it i
 is HOW's.  PLAN may stand in the place of MATCHING."
   (multiple-value-bind (matching plan)
       (if (plan-p matching) (values nil matching) (values matching plan))
-    (if (or (and (consp name) (null (name-of name))) (and (stringp name) (find #\( name)))
+    (if (fact-form-p name)
         (how name plan)
         (print-answer (explain-why-not name matching plan)))))
 

@@ -45,7 +45,7 @@ under each, and FIRED-FOR-OTHERS is true if it fired for something else."
                      (setf (refusal-fired-for-others refusal) (and bindings t))
                      refusal)
                     (t (make-refusal :rule rule :fired bindings
-                                     :stop (and (plan-stop plan) (not (unfinished-p plan))
+                                     :stop (and (plan-stop plan)
                                                 (eq rule (stop-rule (plan-stop plan)))
                                                 (plan-stop plan)))))))))))
 
@@ -109,12 +109,15 @@ first clause that fails for all of them.  NIL if none does."
       "KEEP BEST"))
 
 (defun write-fired (refusal stream)
-  (let ((rule (refusal-rule refusal)))
-    (format stream "RULE ~a did fire~@[, with ~a~]~@[, and ended the run before, ~a~].~%"
-            (rule-name rule)
+  (let* ((rule (refusal-rule refusal))
+         (stop (refusal-stop refusal))
+         (running (and stop (waiting-p stop))))
+    (format stream "RULE ~a ~:[did fire~;is running~]~@[, with ~a~]~@[, and ~a~].~%" (rule-name rule)
+            running
             (let ((texts (binding-texts rule (refusal-fired refusal))))
               (and texts (listed texts 12 "; ")))
-            (and (refusal-stop refusal) (stop-text (refusal-stop refusal))))))
+            (cond (running "has not come to this yet")
+                  (stop (format nil "ended the run before, ~a" (stop-text stop)))))))
 
 (defun binding-texts (rule bindings)
   "Return BINDINGS of RULE in words, those without variables left out."
