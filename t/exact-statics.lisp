@@ -383,3 +383,17 @@ random needs."
                (supergrip:sure-radius (,need ,need :offset 3)
                 "offset is 3; it is a list of three numbers, along X Y Z"))
         do (is (string= (format nil text) (refusal-of function arguments)))))
+
+(test needs-may-be-as-small-as-they-like
+  "Needs 1e-200 times as large have a radius 1e200 times as large, and so has what is sure."
+  (let ((need '(1 0.8d0 0.8d0 0.3d0 1 1)) (gravity '(0 0 -0.2d0 0 0 0)))
+    (flet ((small (number) (* 1d-200 number)))
+      (loop for function in (list (lambda (need)
+                                    (supergrip:exact-radius *two-fingers* 0.5d0 0.2d0 need
+                                                            :gravity gravity :absolute 0))
+                                  (lambda (need)
+                                    (supergrip:sure-radius '(1 1 1 1 1 1) need :gravity gravity
+                                                                               :offset '(0 1 2))))
+            for radius = (funcall function need)
+            do (is (close-to 1 (/ (small (funcall function (mapcar #'small need))) radius)
+                             1d-2))))))

@@ -117,3 +117,22 @@
                                             :traps '(:underflow :inexact)
                                             :rounding-mode :positive-infinity))))
     (is (not (traps-matter-p (lambda () (plan-figures (exact-plan box))))))))
+
+(test extreme-boxes-have-records-by-either-index
+  "Whatever sizes, friction, weight and needs are, a plan has a record, and no number of it is none."
+  (let ((state (sb-ext:seed-random-state 3)))
+    (flet ((one-of (&rest numbers) (nth (random (length numbers) state) numbers)))
+      (dotimes (i 150)
+        (let ((box `((:size ,(one-of 12 1d-3 1d100 1d-300 2 1d300 5) ,(one-of 2 1d-3 3 1d10)
+                            ,(one-of 2 3 1d-100 1d20 1d300))
+                     (:weight ,(one-of 0 .2d0 1d-300 1d300 1d-8))
+                     (:u ,(one-of .8d0 1.5d0 1d300 1d-300 0 1d150))
+                     (:v ,(one-of .2d0 1d300 0 1d-300))
+                     (:constrained :z2)
+                     (:force-needed ,(loop repeat 6 collect (one-of 0 1 1d-300 .5d0 1d-150)))
+                     (:velocity-needed (0 1 1d-300 .5d0 0 1)))))
+          (dolist (index '(:paper :exact))
+            (let ((plan (supergrip:plan box :index index)))
+              (is (equal (supergrip::plan-record plan)
+                         (lisp-record (lisp-line (supergrip::plan-record plan))))
+                  "~s ~s" index box))))))))

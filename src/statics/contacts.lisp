@@ -39,6 +39,14 @@ are doubles not below 0."
   (%make-grip count friction soft-friction (and coupled t) (make-doubles (* +finger+ count))
               (make-doubles (* 6 count))))
 
+(defun computable-p (grip gravity)
+  "True if what GRIP does against GRAVITY, a six, can be computed: no number is so large that its
+products have no value."
+  (declare (type grip grip) (type six gravity))
+  (flet ((small-p (number) (< (abs number) 1d75)))
+    (and (small-p (grip-friction grip)) (small-p (grip-soft-friction grip))
+         (every #'small-p (grip-rows grip)) (every #'small-p gravity))))
+
 (declaim (inline put-force))
 (defun put-force (rows start px py pz fx fy fz)
   "Put the wrench of the force F at the place P into ROWS from START."

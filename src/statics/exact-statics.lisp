@@ -62,8 +62,8 @@
       (loop for contact in contacts
             for index from 0
             do (apply #'set-finger grip index (check-contact contact (1+ index))))
-      (unless (every #'finite-p (grip-rows grip))
-        (refuse-argument "the contacts are too far away to compute with"))
+      (unless (computable-p grip (make-six))
+        (refuse-argument "the contacts are too far away, or u or v too large, to compute with"))
       grip)))
 
 (defun finite-p (number)

@@ -225,23 +225,28 @@ motion in which the fingers do less power than gravity takes."
     (values holds
             (and (not holds) (out-of-frame (f-frame finder) (f-q finder))))))
 
+(defun spans-all-p (grip)
+  "True if GRIP reaches seven ways that positive mixtures make all others of: each axis, and against
+them all."
+  (declare (type grip grip))
+  (let ((f (find-in grip)) (nothing (make-six)) (way (make-six)))
+    (flet ((reached-p ()
+             (aim f nothing +little+ way)
+             (reach-p f 0d0 +close+)))
+      (no-force f)
+      (and (loop for k below 6
+                 always (progn (fill way 0d0)
+                               (setf (aref way k) 1d0)
+                               (reached-p)))
+           (progn (fill way -1d0)
+                  (reached-p))))))
+
 (defun grip-closed-p (grip)
   "True if GRIP is closed: it can exert a wrench in every direction.  One that reaches less than 1e-5
-as far in one direction as in the mean is not."
-  (declare (type grip grip))
+as far in one direction as in the mean is not, nor one that can't be computed."
   (without-float-traps
-    (let ((f (find-in grip)) (nothing (make-six)) (way (make-six)))
-      (flet ((reached-p ()
-               (aim f nothing +little+ way)
-               (reach-p f 0d0 +close+)))
-        ;; Seven ways that positive mixtures make all others of: each axis, and against them all.
-        (no-force f)
-        (and (loop for k below 6
-                   always (progn (fill way 0d0)
-                                 (setf (aref way k) 1d0)
-                                 (reached-p)))
-             (progn (fill way -1d0)
-                    (reached-p)))))))
+    (and (computable-p grip (make-six))
+         (spans-all-p grip))))
 
 (defun add-forces (f motion share forces)
   "Add to FORCES, four numbers a finger, SHARE times what the fingers of F do in MOTION: how much

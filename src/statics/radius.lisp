@@ -33,16 +33,23 @@ frame.  The wrenches SUPPLY and DEMAND among SLOTS are not in the frame yet; mir
          (power (+ (grip-power grip witness (make-six)) (row-dot gravity 0 witness))))
     (values (min power 0d0) (min power 0d0) witness 0)))
 
-(defun certified-radius (grip need gravity p frame budget)
-  "Return the values of GRIP-RADIUS for a grip that holds against GRAVITY; P is the proof, in
-FRAME."
+(defun needs-unit (need)
+  "Return the power of 2 that the greatest of NEED is at least, and less than twice as much as.  Needs
+as small as 1e-300 have no squares; in this unit they have."
+  (declare (type six need))
+  (scale-float 1d0 (1- (nth-value 1 (decode-float (reduce #'max need))))))
+
+(defun certified-radius (grip need gravity p frame budget unit)
+  "Return the values of GRIP-RADIUS for a grip that holds against GRAVITY; P is the proof, in FRAME.
+NEED is in UNIT, the values are not."
+  (declare (type not-negative unit))
   (look-around p)
   (let* ((proved (prove p budget))
          (worst (out-of-frame frame (p-worst p)))
          (worst (scaled worst (needed-size need worst)))
          (upper (+ (grip-power grip worst (make-six)) (row-dot gravity 0 worst)))
          (upper (if (<= upper +nothing+) 0d0 upper)))
-    (values upper (and proved (min upper (p-goal p))) worst
+    (values (/ upper unit) (and proved (/ (min upper (p-goal p)) unit)) (scaled worst unit)
             (+ (p-evaluations p) (f-evaluations (p-finder p))))))
 
 (defun grip-radius (grip need gravity &optional (gap 0.01d0) (absolute 0.002d0) (budget 100000))
@@ -52,13 +59,16 @@ above 0, and GRAVITY are sixes, NEED without signs."
   (declare (type grip grip) (type six need gravity) (type double-float gap absolute)
            (type (and fixnum (integer 0)) budget))
   (without-float-traps
-    (multiple-value-bind (p frame)
-        (start-proof grip need gravity :supply (copy-seq gravity) :gap gap :absolute absolute)
-      (let ((finder (p-finder p)))
-        (if (or (needs-nothing-p gravity)
-                (reaches-p finder (opposite (p-supply p))))
-            (certified-radius grip need gravity p frame budget)
-            (cant-hold grip gravity (out-of-frame frame (f-q finder))))))))
+    (let* ((unit (needs-unit need))
+           (need (scaled (copy-seq need) unit)))
+      (multiple-value-bind (p frame)
+          (start-proof grip need gravity :supply (copy-seq gravity) :gap gap
+                                         :absolute (* absolute unit))
+        (let ((finder (p-finder p)))
+          (if (or (needs-nothing-p gravity)
+                  (reaches-p finder (opposite (p-supply p))))
+              (certified-radius grip need gravity p frame budget unit)
+              (cant-hold grip gravity (out-of-frame frame (f-q finder)))))))))
 
 (defun grip-squeeze (grip need gravity &optional (gap 0.01d0) (budget 100000))
   "Return the least cap on each finger's force with which GRIP does the task NEED and holds against

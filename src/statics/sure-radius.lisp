@@ -40,14 +40,24 @@ being the torques' s/c, and of (need_k / c_k)^2 over the torques.  A force's own
              (loop for k from 3 below 6
                    sum (expt (/ (aref need k) (aref capacities k)) 2) of-type double-float)))))
 
+(defconstant +most-sure+ 1d300 "The greatest sure radius that is told: less is sure, too.")
+
 (defun sure (capacities need gravity ox oy oz)
   "Return the radius of SURE-RADIUS, or NIL if nothing is needed.  CAPACITIES, NEED and GRAVITY are
 sixes without signs but GRAVITY; O, doubles, is the point of the capacities."
   (declare (type six capacities need gravity) (double-float ox oy oz))
   (without-float-traps
     (cond ((every #'zerop need) nil)
-          ((notevery #'plusp capacities) 0d0)
-          (t (let ((left (- 1d0 (load-shares capacities gravity ox oy oz))))
-               (if (> left 0d0)
-                   (/ left (task-shares capacities need ox oy oz))
-                   0d0))))))
+          ;; Beyond these sizes shares can't be computed, so nothing is sure.
+          ((not (and (every (lambda (capacity) (< 1d-100 capacity 1d100)) capacities)
+                     (< (max (abs ox) (abs oy) (abs oz)) 1d100)))
+           0d0)
+          (t (let* ((left (- 1d0 (load-shares capacities gravity ox oy oz)))
+                    (most (reduce #'max need))
+                    ;; Needs as small as 1e-300 have no squares.
+                    (scaled (map 'six (lambda (each) (/ each most)) need))
+                    (radius (/ left (task-shares capacities scaled ox oy oz) most)))
+               (declare (double-float left most radius))
+               (cond ((not (> radius 0d0)) 0d0) ; nothing is sure, or it has no value
+                     ((> radius +most-sure+) +most-sure+)
+                     (t radius)))))))
