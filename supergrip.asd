@@ -15,6 +15,7 @@
                 :serial t
                 :components ((:file "numbers-in-print")
                              (:file "matchings")
+                             (:file "rotations")
                              (:file "box")
                              (:file "box-keys")
                              (:file "read-box")
@@ -204,6 +205,7 @@
                (:file "properties")
                (:file "plan")
                (:file "errors")
+               (:file "rotations")
                (:file "preliminary-assertions")
                (:file "box-facts")
                (:file "try-steps")
