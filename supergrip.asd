@@ -37,6 +37,7 @@
                              (:file "knowledge")
                              (:file "plan")
                              (:file "candidate")
+                             (:file "hand-frame")
                              (:file "exact")))
                (:module "why"
                 :serial t
@@ -213,6 +214,7 @@
                (:file "forms")
                (:file "exact-statics")
                (:file "exact")
+               (:file "hand-frame")
                (:file "grasp-entries")
                (:file "curves")
                (:file "spoiled")

@@ -16,8 +16,8 @@
 (defun json-line (record) (written record #'supergrip::write-json-record))
 
 (test the-pencil-has-its-record
-  (let ((record (supergrip::plan-record (supergrip:plan (cons '(:name "pencil") *good-box*))
-                                        :line 3)))
+  (let* ((plan (supergrip:plan (cons '(:name "pencil") *good-box*)))
+         (record (supergrip::plan-record plan :line 3)))
     (loop for (key value) in
           '((:name "pencil") (:line 3) (:status "grasp") (:grasp "PINCH-3-PARALLEL")
             (:matching ("Y2" "Y1" "X2" "X1" "Z2" "Z1")) (:u-t 0.625d0)
@@ -27,8 +27,9 @@
     (is (close-to 0.86d0 (getf record :quality)))
     (is (close-to 0.5752262775582044d0 (getf record :sure)))
     (is (= 3 (length (getf record :contacts))))
-    (is (equal '(:surface "Y2" :position (-0.86875d0 -1d0 0d0) :normal (0d0 1d0 0d0))
-               (first (getf record :contacts))))))
+    (is (equal '(:surface "Y2" :position (-0.86875d0 -1d0 0d0) :normal (0d0 1d0 0d0) :finger "F1")
+               (first (getf record :contacts))))
+    (is (equal (supergrip:candidate-hand (supergrip:plan-best plan) plan) (getf record :hand)))))
 
 (test what-is-sure-is-never-above-what-the-contacts-can-do
   "A sure radius is at most the exact one of the same contacts, at the box's own weight."

@@ -12,24 +12,32 @@
 :LIMITING  (:FORCE axis :VELOCITY axis), as \"about Y\".
 :OFFSET  the grasp centre from the box centre, along X Y Z, in cm.
 :APPROACH  a unit vector in the box frame, from the palm to the box.
-:CONTACTS  a list of (:SURFACE face :POSITION along X Y Z, in cm, :NORMAL inward unit vector).
+:CONTACTS  as CANDIDATE-CONTACTS has them: (:SURFACE face :POSITION p :NORMAL n :FINGER name) each.
 :TRIED :POSSIBLE  how many candidates were tried, and how many of them are possible.
 :REASON  why the box can't be grasped.
 :SURE  the sure radius of the best grasp, CANDIDATE-SURE; NIL where the task needs no force.
+:HAND  where the hand of the best grasp is: (:POSITION p :ORIENTATION quaternion :OPENING length
+  :CLOSING unit vector), as CANDIDATE-HAND has it.
 In exact mode also, of the best grasp (see src/plan/exact.lisp):
 :BETA  (LOWER UPPER), the exact radius, LOWER certified or NIL; NIL where the task needs no force.
 :SQUEEZE :FRICTION-MARGIN  CANDIDATE-SQUEEZE, CANDIDATE-FRICTION-MARGIN."
-  (let ((best (plan-best plan))
-        (candidates (plan-candidates plan)))
+  (let* ((best (plan-best plan))
+         (contacts (and best (candidate-contacts best plan)))
+         (candidates (plan-candidates plan)))
     (list* :name (box-name (plan-box plan))
            :line line
            :status (if best "grasp" "cant")
-           (append (if best (grasp-part best plan) (grasp-part nil nil))
+           (append (grasp-part best contacts)
                    (list :tried (length candidates)
                          :possible (count :possible candidates :key #'%candidate-outcome)
-                         :reason (plan-reason plan)
-                         :sure (and best (candidate-sure best plan)))
-                   (index-part (plan-index plan) best plan)))))
+                         :reason (plan-reason plan))
+                   (further-part best contacts plan)))))
+
+(defun further-part (best contacts plan)
+  "Return the part of a record that tells more of the grasp BEST, with CONTACTS, of PLAN, or of none."
+  (list* :sure (and best (candidate-sure best plan))
+         :hand (and best (contacts-hand best contacts (plan-box plan)))
+         (index-part (plan-index plan) best plan)))
 
 (defgeneric index-part (index best plan)
   (:documentation "Return the part of a record that only INDEX, a keyword, has; of the grasp BEST of
@@ -45,8 +53,8 @@ PLAN, or of none.")
         :squeeze (and best (candidate-squeeze best plan))
         :friction-margin (and best (candidate-friction-margin best plan))))
 
-(defun grasp-part (best plan)
-  "Return the part of a record that tells of the grasp BEST of PLAN, or of none."
+(defun grasp-part (best contacts)
+  "Return the part of a record that tells of the grasp BEST with CONTACTS, or of none."
   (if (null best)
       (list :grasp nil :matching nil :quality nil :u-w nil :u-t nil :limiting nil :offset nil
             :approach nil :contacts nil)
@@ -59,7 +67,7 @@ PLAN, or of none.")
                             :velocity (candidate-velocity-axis best))
             :offset (candidate-offset best)
             :approach (candidate-approach best)
-            :contacts (candidate-contacts best plan))))
+            :contacts contacts)))
 
 (defun error-record (problems &key name line (index :paper))
   "Return the record of a box that can't be used because of PROBLEMS: as PLAN-RECORD gives it, with
@@ -75,7 +83,8 @@ PLAN, or of none.")
                                        collect (list :line (problem-line problem)
                                                      :column (problem-column problem)
                                                      :text (problem-text problem)))
-                       :sure nil)
+                       :sure nil
+                       :hand nil)
                  (index-part index nil nil))))
 
 (defun problem-reason (problem)

@@ -112,7 +112,7 @@ long, neither too large nor too small for the fingers; USUAL is a size in the mi
          (by-face (loop for face in '(1 0 3 2 5 4)
                         for names = (loop for contact in (subject-contacts subject)
                                             when (= face (contact-face contact))
-                                              collect (finger-name contact))
+                                              collect (contact-finger contact))
                         when names collect (cons face names)))
          (pairs (loop for (face . names) in by-face
                       for other = (cdr (assoc (opposite face) by-face))
@@ -145,7 +145,7 @@ long, neither too large nor too small for the fingers; USUAL is a size in the mi
     (place-labels (list (+ x 4) (+ y 48) (- width 8) (- height 52)))
     (format nil "~a: ~{~a~^, ~}; ~a." (candidate-grasp candidate)
             (loop for contact in (subject-contacts subject)
-                  collect (format nil "finger ~a on ~a" (finger-name contact)
+                  collect (format nil "finger ~a on ~a" (contact-finger contact)
                                   (funcall (subject-namer subject) (contact-face contact))))
             summary)))
 

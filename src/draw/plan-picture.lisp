@@ -81,7 +81,7 @@
   "Return where the fingers are, for a reader."
   (format nil "Fingers: ~{~a~^, ~}; cm from the box centre."
           (loop for contact in (subject-contacts subject)
-                collect (format nil "~a on ~a at ~a" (finger-name contact)
+                collect (format nil "~a on ~a at ~a" (contact-finger contact)
                                 (face-name (contact-face contact))
                                 (place-text (contact-position contact))))))
 

@@ -51,7 +51,7 @@ forces in units of one finger’s greatest normal force, torques in their produc
      (loop for face in (remove-duplicates (mapcar #'contact-face contacts) :from-end t)
            for names = (loop for contact in contacts
                              when (= face (contact-face contact))
-                               collect (finger-name contact))
+                               collect (contact-finger contact))
            collect (format nil "finger~p ~a on ~a" (length names) (list-text names)
                            (face-name face))))))
 

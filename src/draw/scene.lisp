@@ -255,7 +255,7 @@ box as seen edge-on, so that the box can't hide it."
   (format nil "(~{~a~^, ~})" (mapcar #'decimal vector)))
 
 (defun contact-title (contact)
-  (format nil "Finger ~a on ~a at ~a cm" (finger-name contact)
+  (format nil "Finger ~a on ~a at ~a cm" (contact-finger contact)
           (face-name (contact-face contact)) (place-text (contact-position contact))))
 
 (defun label-anchor (contact)
@@ -281,8 +281,8 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
 
 (defun contact-label (contacts subject)
   (if *small*
-      (format nil "~{~a~^, ~}" (mapcar #'finger-name contacts))
-      (format nil "~{~a~^, ~} on ~a" (mapcar #'finger-name contacts)
+      (format nil "~{~a~^, ~}" (mapcar #'contact-finger contacts))
+      (format nil "~{~a~^, ~} on ~a" (mapcar #'contact-finger contacts)
               (funcall (subject-namer subject) (contact-face (first contacts))))))
 
 (defun label-contacts (subject)
@@ -303,8 +303,7 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
                               (if (< (distance anchor apex) 1) apex anchor)
                               :class "bold" :away 7 :leader t
                               :toward (outward apex anchor middle))
-               (setf left (set-difference left same))
-               (setf left (sort left #'< :key #'contact-number))))))
+               (setf left (remove-if (lambda (contact) (member contact same)) left))))))
 
 (defun draw-approach (subject)
   "Draw the hollow arrow along which the hand comes."

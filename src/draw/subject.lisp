@@ -4,13 +4,9 @@
 (in-package :supergrip-draw)
 
 (defstruct contact
-  "A finger's contact: its NUMBER from 1, the FACE it is on, its POSITION in cm, and PATH, the
-diagram of the finger from the palm to the position."
-  number face position path)
-
-(defun finger-name (contact)
-  "Return the name of the finger of CONTACT: F1, so that it can't be taken for a face as N1."
-  (format nil "F~d" (contact-number contact)))
+  "A finger's contact: FINGER, its name, the FACE it is on, its POSITION in cm, and PATH, the diagram of
+the finger from the palm to the position."
+  finger face position path)
 
 (defstruct subject
   "A box to be drawn, and a grasp of it if PALM, the face that the palm is over, is not NIL.
@@ -146,10 +142,10 @@ OPTIONS are other slots of the subject."
                              :centre (candidate-offset candidate) :allow-other-keys t options)))
         (setf (subject-contacts subject)
               (loop for contact in found
-                    for number from 1
                     for face = (face-index (getf contact :surface))
                     for position = (getf contact :position)
-                    collect (make-contact :number number :face face :position position
+                    collect (make-contact :finger (getf contact :finger) :face face
+                                          :position position
                                           :path (finger-path position face palm level subject))))
         (place-palm subject level)))))
 

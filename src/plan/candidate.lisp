@@ -84,10 +84,16 @@ figures."
      (replay ,candidate ,workspace)
      ,@body))
 
+(defparameter +finger-names+
+  (coerce (loop for number from 1 to +most-contacts+ collect (format nil "F~d" number))
+          'simple-vector)
+  "The names of the fingers, in the order of a grasp's CONTACTS: F1, not to be taken for a face as N1.")
+
 (defun candidate-contacts (candidate &optional (plan *plan*))
   "Return the contacts of CANDIDATE, which is possible in PLAN: a list of plists with :SURFACE, the
-name of a box face, :POSITION and :NORMAL, lists along X Y Z in the box frame at the box centre;
-positions in cm, the normals point inward."
+name of a box face; :POSITION and :NORMAL, lists along X Y Z in the box frame at the box centre,
+positions in cm, the normals pointing inward; and :FINGER, the finger's name in the pictures, as
+\"F1\"."
   (with-replay (workspace candidate plan)
     (execute (grasp-positions (%candidate-grasp candidate)) (workspace-registers workspace))
     (workspace-contacts candidate workspace)))
@@ -97,11 +103,13 @@ positions in cm, the normals point inward."
   (loop with registers = (workspace-registers workspace)
         with matching = (%candidate-matching candidate)
         for (grasp-face p q) in (grasp-contacts (%candidate-grasp candidate))
+        for finger across +finger-names+
         for face = (svref (matching-faces matching) grasp-face)
         collect (list :surface (face-name face)
                       :position (contact-position workspace matching grasp-face
                                                   (aref registers p) (aref registers q))
-                      :normal (unit-vector face -1))))
+                      :normal (unit-vector face -1)
+                      :finger finger)))
 
 (defun contact-position (workspace matching grasp-face p q)
   "Return the place, along X Y Z, of a finger on GRASP-FACE at P, Q along its two other axes."
