@@ -88,3 +88,45 @@
     (is (equal '((:line 2 :column 7 :text "it is wrong")) (getf record :problems)))
     (is (equal record (json-record (json-line record))))
     (is (equal record (lisp-record (lisp-line record))))))
+
+;;; Alternatives
+
+(test alternatives-are-the-best-grasps-with-all-that-is-told-of-the-best
+  (for-random-boxes (box 60 43)
+    (let* ((plan (supergrip:plan box))
+           (record (supergrip::plan-record plan :all 3))
+           (alternatives (getf record :alternatives)))
+      (is (= (if (supergrip:plan-best plan) (min 3 (length (supergrip:plan-possible plan))) 0)
+             (length alternatives)))
+      (is (eq :alternatives (first (last record 2))))
+      (is (equal record (json-record (json-line record))))
+      (when alternatives
+        (loop for (key value) on (first alternatives) by #'cddr
+              do (is (equal value (getf record key)) "~a" key)))
+      (loop for (one other) on alternatives
+            while other do (is (>= (+ (getf one :quality) 1d-9) (getf other :quality))))
+      (when alternatives
+        (is (null (set-difference
+                   (loop for (key) on record by #'cddr collect key)
+                   (append '(:name :line :status :tried :possible :reason :alternatives)
+                           (loop for (key) on (first alternatives) by #'cddr collect key))))
+            "an alternative lacks a key")))))
+
+(test alternatives-in-exact-mode-are-no-bounds
+  (for-random-boxes (box 40 44)
+    (let* ((supergrip::*certified* 3)
+           (plan (supergrip:plan box :index :exact))
+           (grasps (supergrip::best-grasps plan 3))
+           (alone (let ((supergrip::*certified* 1)) (supergrip:plan box :index :exact))))
+      (is (notany #'supergrip:candidate-bound-p grasps))
+      (is (equal (supergrip:plan-matching alone) (supergrip:plan-matching plan)))
+      (is (eql (supergrip:plan-quality alone) (supergrip:plan-quality plan)))
+      (dolist (candidate (set-difference (supergrip:plan-possible plan) grasps))
+        (is (<= (supergrip:candidate-quality candidate)
+                (supergrip:candidate-quality (first (last grasps)))))))))
+
+(test a-box-without-a-grasp-has-no-alternatives
+  (is (null (getf (supergrip::plan-record (supergrip:plan (changed-box :weight 1000)) :all 2)
+                  :alternatives)))
+  (is (member :alternatives (supergrip::error-record (list (supergrip-data:make-problem :text "bad"))
+                                                     :all 2))))

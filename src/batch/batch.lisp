@@ -10,7 +10,7 @@
 the input; FORMAT is :TRACE, :LISP, :JSON or NIL, as the input.  BAD counts the error records;
 BROKEN is true if one of them was an internal error.  LAST, after an error record, whose box may go
 on, is the line where it ended, or :REST once it did go on.  PLANS holds the plans for a report, the
-latest first, if KEEP is true."
+latest first, if KEEP is true.  ALL says how many alternatives a record has, NIL for none."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
   (index :paper :type keyword)
@@ -21,6 +21,7 @@ latest first, if KEEP is true."
   (broken nil)
   (last nil)
   (keep nil) (plans '() :type list)
+  (all nil :type (or null fixnum))
   (after-record nil :type (or null function)))
 
 (defun run-batch (batch descriptor)
@@ -238,7 +239,7 @@ and whether they are ours."
           (push plan (batch-plans batch)))
         (if (eq (batch-format batch) :trace)
             (with-output-to-string (out) (write-transcript plan out))
-            (plan-record plan :line line)))
+            (plan-record plan :line line :all (batch-all batch))))
     (box-error (condition)
       (let ((problems (input-error-problems condition)))
         (dolist (problem problems)
@@ -258,7 +259,7 @@ and whether they are ours."
               (loop for problem in problems
                     collect (visible-text (problem-reason problem))))
       (error-record problems :name (description-name description) :line line
-                             :index (batch-index batch))))
+                             :index (batch-index batch) :all (batch-all batch))))
 
 (defun description-name (description)
   "Return the name in DESCRIPTION, which need not be valid, or NIL."

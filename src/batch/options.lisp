@@ -19,6 +19,8 @@ record a box to standard output, in the same order: the best of seven grasps for
   --gamma X                 from 0, forces alone, to 1, velocities alone; 0.5 by default
   --index paper|exact       what grasps are rated by: the paper's index, or what their contacts can
                             really do, proved, which takes a thousand times as long
+  --all N                   also write the N best possible grasps of each box, the best first, with all
+                            that is written of the best; 1000 at most
   --report DIR              also write a page for each box into DIR, and an index with thumbnails;
                             needs cl-who (docs/pictures.md), and keeps all plans till the end
   --check                   only read the rules and grasps, and say what is wrong with them
@@ -67,6 +69,7 @@ Examples:
     ("--grasps" :grasps :file)
     ("--gamma" :gamma :gamma)
     ("--index" :index :choice "paper" "exact")
+    ("--all" :all :count 1000)
     ("--depth-limit" :depth-limit :count 1000)
     ("--record-limit" :record-limit :count 1000000)
     ("--number-limit" :number-limit :count 1000)

@@ -2,7 +2,7 @@
 
 (in-package :supergrip)
 
-(defun plan-record (plan &key line)
+(defun plan-record (plan &key line all)
   "Return the record of PLAN, a plist of strings, numbers, lists and NIL:
 
 :NAME  :LINE  the box's name, and LINE, where its description begins.
@@ -20,7 +20,9 @@
   :CLOSING unit vector), as CANDIDATE-HAND has it.
 In exact mode also, of the best grasp (see src/plan/exact.lisp):
 :BETA  (LOWER UPPER), the exact radius, LOWER certified or NIL; NIL where the task needs no force.
-:SQUEEZE :FRICTION-MARGIN  CANDIDATE-SQUEEZE, CANDIDATE-FRICTION-MARGIN."
+:SQUEEZE :FRICTION-MARGIN  CANDIDATE-SQUEEZE, CANDIDATE-FRICTION-MARGIN.
+If ALL, a number, is given:
+:ALTERNATIVES  at most ALL of the possible grasps, the best first: see ALTERNATIVES."
   (let* ((best (plan-best plan))
          (contacts (and best (candidate-contacts best plan)))
          (candidates (plan-candidates plan)))
@@ -31,7 +33,15 @@ In exact mode also, of the best grasp (see src/plan/exact.lisp):
                    (list :tried (length candidates)
                          :possible (count :possible candidates :key #'%candidate-outcome)
                          :reason (plan-reason plan))
-                   (further-part best contacts plan)))))
+                   (further-part best contacts plan)
+                   (and all (list :alternatives (alternatives plan all)))))))
+
+(defun alternatives (plan most)
+  "Return at most MOST of the possible grasps of PLAN, the best first: of each, a plist, what a record
+tells of the best, from :GRASP to :CONTACTS and from :SURE on."
+  (loop for candidate in (best-grasps plan most)
+        for contacts = (candidate-contacts candidate plan)
+        collect (append (grasp-part candidate contacts) (further-part candidate contacts plan))))
 
 (defun further-part (best contacts plan)
   "Return the part of a record that tells more of the grasp BEST, with CONTACTS, of PLAN, or of none."
@@ -69,7 +79,7 @@ PLAN, or of none.")
             :approach (candidate-approach best)
             :contacts contacts)))
 
-(defun error-record (problems &key name line (index :paper))
+(defun error-record (problems &key name line (index :paper) all)
   "Return the record of a box that can't be used because of PROBLEMS: as PLAN-RECORD gives it, with
 :STATUS \"error\", the problems in one :REASON, and each in :PROBLEMS as (:LINE l :COLUMN c :TEXT t)."
   (list* :name name
@@ -85,7 +95,8 @@ PLAN, or of none.")
                                                      :text (problem-text problem)))
                        :sure nil
                        :hand nil)
-                 (index-part index nil nil))))
+                 (index-part index nil nil)
+                 (and all (list :alternatives nil)))))
 
 (defun problem-reason (problem)
   "Return PROBLEM as line LINE, column COLUMN: TEXT."

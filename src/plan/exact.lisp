@@ -135,26 +135,28 @@ one or, if there is none, the sure radius."
 
 ;;; The best
 
-(defun greatest-quality (candidates)
-  "Return the first one of CANDIDATES of the greatest quality, or NIL."
-  (let ((best nil))
-    (dolist (candidate candidates best)
-      (when (or (null best) (> (%candidate-quality candidate) (%candidate-quality best)))
-        (setf best candidate)))))
+(defvar *certified* 1
+  "How many of the best candidates of a plan exact mode looks at until their qualities are no bounds.")
+
+(defun better-p (a b)
+  "True if the candidate A comes before B: by its quality, and if these are the same, by being no bound."
+  (let ((one (%candidate-quality a)) (other (%candidate-quality b)))
+    (or (> one other)
+        (and (= one other) (%candidate-bound b) (not (%candidate-bound a))))))
 
 (defun choose-exactly (workspace log)
   "Return the best candidate in LOG, the latest first, at the box of WORKSPACE, or NIL.  Its quality is
-no bound, and no less than that of any other, bound or not."
+no bound, and no less than that of any other, bound or not; and so are the next ones, *CERTIFIED* in
+all."
   (without-float-traps
     (let ((possible (reverse (remove-if-not (lambda (entry)
                                               (and (candidate-p entry) (possible-p entry)))
                                             log))))
       (loop
-        (let ((next (greatest-quality (remove-if-not #'%candidate-bound possible)))
-              (best (greatest-quality (remove-if #'%candidate-bound possible))))
-          (when (or (null next)
-                    (and best (< (%candidate-quality next) (%candidate-quality best))))
-            (return best))
+        (let* ((ranked (stable-sort (copy-list possible) #'better-p))
+               (next (find-if #'%candidate-bound ranked
+                              :end (min *certified* (length ranked)))))
+          (unless next (return (first ranked)))
           (look-closer (%candidate-strength next) (workspace-box workspace))
           (rate-exactly next workspace))))))
 

@@ -260,6 +260,14 @@ run that stands at a break or a step; its best grasp is then the best so far."
                      when (possible-p candidate) collect candidate)
                #'> :key #'%candidate-quality))
 
+(defun best-grasps (plan &optional most)
+  "Return the possible grasps of PLAN, its best grasp first, the others by quality: at most MOST of them.
+None if the box can't be grasped."
+  (let ((best (plan-best plan)))
+    (and best
+         (let ((grasps (cons best (remove best (plan-possible plan)))))
+           (subseq grasps 0 (and most (min most (length grasps))))))))
+
 (defun plan-rejected (&optional (plan *plan*))
   "Return the candidates of PLAN that failed, in the order in which they were tried."
   (remove-if #'possible-p (plan-candidates plan)))
