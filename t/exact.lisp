@@ -66,6 +66,130 @@
     (is (null (getf record :beta)))
     (is (plusp (getf record :squeeze)))))
 
+;;; The choice, candidate by candidate
+
+(defun greatest-wrench (contacts u v motion)
+  "Return the wrench of the fingers at CONTACTS that does most power in MOTION."
+  (loop with turn = (nthcdr 3 motion) and sum = '(0 0 0 0 0 0)
+        for (place normal) in contacts
+        for velocity = (mapcar #'+ (subseq motion 0 3) (vector-product turn place))
+        for along = (dot velocity normal)
+        for across = (mapcar (lambda (g n) (- g (* along n))) velocity normal)
+        for slip = (norm across)
+        for twist = (dot turn normal)
+        for force = (mapcar (lambda (n g) (+ n (if (plusp slip) (* u (/ g slip)) 0))) normal across)
+        when (plusp (+ along (* u slip) (* v (abs twist))))
+          do (setf sum (mapcar #'+ sum
+                               (append force
+                                       (mapcar (lambda (torque n) (+ torque (* v (signum twist) n)))
+                                               (vector-product place force) normal))))
+        finally (return sum)))
+
+(defun unit (x) (let ((length (norm x))) (mapcar (lambda (each) (/ each length)) x)))
+
+(defun ways-to-look ()
+  "Return the twelve directions along six axes, and the sixty between two of them."
+  (flet ((ways (k) (loop for sign in '(1 -1)
+                         collect (loop for l below 6 collect (if (= k l) sign 0)))))
+    (loop for k below 6
+          append (ways k)
+          append (loop for l from (1+ k) below 6
+                       append (loop for a in (ways k)
+                                    append (loop for b in (ways l)
+                                                 collect (unit (mapcar #'+ a b))))))))
+
+(defun reach-of (case)
+  "Return how far the fingers of CASE reach on each axis, the lesser way: in these units all ways
+are alike."
+  (destructuring-bind (contacts u v &rest rest) case
+    (declare (ignore rest))
+    (loop for k below 6
+          collect (loop for way in (ways-to-look)
+                        when (= 1 (abs (nth k way)))
+                          minimize (max 1d-3 (power-of contacts u v way))))))
+
+(defun ratio-met (case x reach)
+  "Return the power / demand of CASE in the motion X, in units of REACH, and its slope; NIL if
+nothing is demanded there."
+  (destructuring-bind (contacts u v need gravity) case
+    (let* ((motion (mapcar #'/ x reach)) (demand (norm (mapcar #'* need motion))))
+      (when (plusp demand)
+        (let* ((wrench (mapcar #'+ gravity (greatest-wrench contacts u v motion)))
+               (ratio (/ (dot wrench motion) demand)))
+          (values ratio (mapcar (lambda (w f q r) (/ (- w (/ (* ratio f f q) demand)) r))
+                                wrench need motion reach)))))))
+
+(defun least-ratio-met (case starts)
+  "Return the least power / demand of CASE, which needs something, in many motions: 72 ways, and
+forty steps down from each of the STARTS best.  The radius is not above it."
+  (let* ((least nil) (reach (reach-of case)))
+    (flet ((look (x)
+             (multiple-value-bind (ratio slope) (ratio-met case x reach)
+               (when (and ratio (or (null least) (< ratio least)))
+                 (setf least ratio))
+               (values ratio slope))))
+      (let ((best (sort (loop for way in (ways-to-look)
+                              for ratio = (look way)
+                              when ratio collect (cons ratio way))
+                        #'< :key #'first)))
+        (loop for (nil . x) in best
+              repeat starts
+              do (loop repeat 40
+                       for length = 0.25d0 then (* 0.88d0 length)
+                       for slope = (nth-value 1 (look x))
+                       while (and slope (plusp (norm slope)))
+                       do (setf x (unit (mapcar (lambda (x s) (- x (* length s)))
+                                                x (unit slope))))))
+        least))))
+
+(defun radius-alone (candidate plan starts)
+  "Return what u_w of CANDIDATE of PLAN, by the exact index, is if it is certified alone; what is
+wrong with that, or NIL; and the least ratio met, from STARTS, over its upper value."
+  (let ((case (candidate-case candidate plan (needed plan))))
+    (multiple-value-bind (upper lower) (exact-radius-of case)
+      (let ((met (least-ratio-met case starts)))
+        (values (or lower (supergrip:candidate-sure candidate plan))
+                (cond ((> (or lower 0) (+ met 1d-9))
+                       (format nil "~a is certified, a motion gives ~a" lower met))
+                      ((minusp upper) "it drops the box"))
+                (/ met (max upper 1d-9)))))))
+
+(defun quality-with (candidate plan radius)
+  "Return Q of CANDIDATE of PLAN if its u_w is RADIUS, NIL if no force is needed."
+  (let ((u-t (supergrip:candidate-velocity-radius candidate)) (gamma (supergrip:plan-gamma plan)))
+    (cond ((null u-t) radius)
+          ((null radius) u-t)
+          (t (+ (* gamma u-t) (* (- 1 gamma) radius))))))
+
+(defun choice-faults (plan starts)
+  "Return what is wrong with the choice of PLAN, by the exact index, if each possible candidate is
+certified alone and looked at from STARTS; how many there are; and the last values of RADIUS-ALONE."
+  (loop with force = (notevery #'zerop (needed plan))
+        with best = (supergrip:plan-best plan)
+        for candidate in (supergrip:plan-possible plan)
+        for (radius fault ratio) = (and force (multiple-value-list
+                                               (radius-alone candidate plan starts)))
+        for alone = (quality-with candidate plan radius)
+        for given = (supergrip:candidate-quality candidate)
+        count t into count
+        when ratio collect ratio into ratios
+        when fault collect fault into faults
+        unless (<= alone (+ 1d-9 (if (supergrip:candidate-bound-p candidate)
+                                     (min given (supergrip:plan-quality plan))
+                                     given)))
+          collect (format nil "~a: certified alone ~a" candidate alone) into faults
+        when (and (eq candidate best) (not (close-to alone given)))
+          collect (format nil "~a: the choice is ~a" candidate alone) into faults
+        finally (return (values faults count ratios))))
+
+(test the-choice-is-the-best-of-all-certified-one-by-one
+  (let ((several 0))
+    (for-random-boxes (box 120 76)
+      (multiple-value-bind (faults count) (choice-faults (exact-plan box) 2)
+        (is (null faults) "~s:~{ ~a~}" box faults)
+        (when (> count 1) (incf several))))
+    (is (< 10 several))))
+
 ;;; The pencil
 
 (test the-pencil-by-the-exact-index

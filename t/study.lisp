@@ -4,6 +4,8 @@
 ;;;; sbcl --script t/study.lisp cases | python3 t/cones.py   how tight bounds are, for docs/physics.md
 ;;;; sbcl --script t/study.lisp compare RULES GRASPS         what other files answer differently
 ;;;; sbcl --script t/study.lisp sure                         how tight the sure radius is
+;;;; sbcl --script t/study.lisp choice                      exact choices, candidate by candidate
+;;;; sbcl --script t/study.lisp lifting                     what sound lifting loses
 ;;;; sbcl --script t/study.lisp radii | python3 t/radii.py   exact radii by other means
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
@@ -277,9 +279,74 @@ tries something new: again with all rules up to it, until there is none."
                 count above (quantile 0.5) (quantile 0.1) (quantile 0) (quantile 1)
                 not-certified)))))
 
+(defun print-choices (count)
+  "Print whether the choices of exact mode on COUNT boxes with a grasp are the best, each possible
+candidate certified alone."
+  (let ((state (sb-ext:seed-random-state 1)) (faults '()) (boxes 0) (candidates 0) (ratios '()))
+    (loop until (= boxes count)
+          do (let ((plan (exact-plan (random-box state))))
+               (when (supergrip:plan-best plan)
+                 (incf boxes)
+                 (multiple-value-bind (wrong possible met) (choice-faults plan 30)
+                   (incf candidates possible)
+                   (setf faults (append wrong faults) ratios (append met ratios))))))
+    (let ((sorted (sort (coerce ratios 'vector) #'<)))
+      (format t "~d boxes with a grasp, ~d possible candidates: ~d faults~%~{~a~%~}" boxes
+              candidates (length faults) faults)
+      (format t "least ratio met / upper value: least ~,4f, median ~,4f, 90 % below ~,4f~%"
+              (aref sorted 0) (aref sorted (floor (length sorted) 2))
+              (aref sorted (floor (* 0.9 (length sorted))))))))
+
+(defun up-to-half-turns (candidates)
+  "Return what CANDIDATES are, a list: those that the paper's index takes for the same are one."
+  (let ((same (supergrip::index-same (supergrip::index-named :paper))))
+    (remove-duplicates
+     (loop for candidate in candidates
+           for grasp = (supergrip::%candidate-grasp candidate)
+           for matching = (supergrip::%candidate-matching candidate)
+           collect (list (supergrip:candidate-grasp candidate)
+                         (aref (funcall same grasp) (supergrip::matching-index matching))))
+     :test #'equal)))
+
+(defun lost-at (outcome plan exact)
+  "Return how many candidates of PLAN that failed with OUTCOME are possible in EXACT."
+  (length (intersection (up-to-half-turns
+                         (remove outcome (supergrip:plan-rejected plan)
+                                 :key #'supergrip:candidate-outcome :test-not #'eq))
+                        (up-to-half-turns (supergrip:plan-possible exact)) :test #'equal)))
+
+(defun possible-count (plan) (length (supergrip:plan-possible plan)))
+
+(defun print-lifting (kind boxes)
+  "Print what closure and lifting by the paper's index lose on BOXES of KIND, against the exact
+one."
+  (let ((plans (plans boxes supergrip:*knowledge*)) (exact (mapcar #'exact-plan boxes)))
+    (flet ((grasps (plans) (count-if #'supergrip:plan-best plans))
+           (sum (function plans) (reduce #'+ (mapcar function plans)))
+           (only (plans others)
+             (count t (mapcar (lambda (plan other)
+                                (and (supergrip:plan-best plan) (null (supergrip:plan-best other))))
+                              plans others)))
+           (lost (outcome)
+             (reduce #'+ (mapcar (lambda (plan exact) (lost-at outcome plan exact)) plans exact))))
+      (format t "~d boxes, ~a~%~2tpossible candidates: ~d by the paper's index, ~d by the exact ~
+                 one (~d with half-turns); ~d are lost at lifting, ~d at closure~%"
+              (length boxes) kind (sum #'possible-count plans)
+              (sum (lambda (plan) (length (up-to-half-turns (supergrip:plan-possible plan)))) exact)
+              (sum #'possible-count exact) (lost :lifting) (lost :open))
+      (format t "~2tboxes with a grasp: ~d by the paper's index, ~d by the exact one; only by the ~
+                 exact one: ~d, only by the paper's: ~d~%~
+                 ~2tpossible candidates that drop the box: ~d, ~d~%"
+              (grasps plans) (grasps exact) (only exact plans) (only plans exact)
+              (sum (lambda (plan) (length (dropped plan))) plans)
+              (sum (lambda (plan) (length (dropped plan))) exact)))))
+
 (destructuring-bind (&optional what . files) (rest sb-ext:*posix-argv*)
   (cond ((equal what "cases") (print-cases (sb-ext:seed-random-state 1)))
         ((equal what "sure") (print-sure 10000 (sb-ext:seed-random-state 1)))
+        ((equal what "choice") (print-choices 500))
+        ((equal what "lifting") (loop for (kind maker) in (subseq *kinds* 0 2)
+                                         do (print-lifting kind (boxes-of maker 2000 1))))
         ((equal what "radii") (print-radii 300 (sb-ext:seed-random-state 1)))
         ((equal what "compare") (apply #'print-comparison files))
         (t
