@@ -13,7 +13,7 @@ in them.")
    #:*places* #:form-file #:form-line
    #:make-problem #:errors-in #:warnings-in #:suggestion
    ;; SBCL itself
-   #:backquote-p #:take-from #:give-to #:with-plain-floats #:without-float-traps #:global-name-p
+   #:backquote-p #:take-from #:give-to #:keep-in #:double-bits #:with-plain-floats #:without-float-traps #:global-name-p
    #:seeded-state #:define-typed-word #:typed-name
    #:system-failure #:system-failure-errno #:read-failure #:write-failure #:+is-directory+
    #:native-path #:native-name #:directory-p #:open-descriptor #:file-text #:room-for

@@ -13,7 +13,21 @@
   "Put OBJECT before the list in PLACE, a slot of a structure."
   `(sb-ext:atomic-push ,object ,place))
 
+(defmacro keep-in (vector place object)
+  "Put OBJECT, complete, at PLACE of the simple VECTOR, which other threads read.  Return it."
+  (let ((the-object (gensym "OBJECT")))
+    `(let ((,the-object ,object))
+       (sb-thread:barrier (:write))
+       (setf (svref ,vector ,place) ,the-object))))
+
 ;;; Floating point
+
+(declaim (inline double-bits))
+(defun double-bits (number)
+  "Return an integer from 0 that the bits of the double NUMBER make."
+  (declare (double-float number))
+  (logxor (sb-kernel:double-float-low-bits number)
+          (ash (ldb (byte 32 0) (sb-kernel:double-float-high-bits number)) 29)))
 
 (defconstant +float-flags+ (dpb -1 sb-vm:float-sticky-bits 0)
   "The bits of the floating point modes that only say what happened.")

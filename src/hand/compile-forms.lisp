@@ -184,6 +184,13 @@ inside another operation."
     (:cond (&rest clauses)
       (let ((to (if (first to) to (loop repeat 6 collect (new-register code)))))
         (write-clauses clauses code (lambda (node code) (write-six-into node code to)))
+        to))
+    (:computed (computation &rest nodes)
+      (let ((from (loop for node in nodes collect (write-number node code)))
+            (to (loop repeat (computation-count computation) collect (new-register code))))
+        (add-step code (lambda (next)
+                         (computation-step computation next (coerce from 'register-vector)
+                                           (first to))))
         to))))
 
 (defun write-six-into (node code to)

@@ -16,6 +16,7 @@
   :GUARD a b...  A, without value where one of the others has none
   :HOLDS test    TEST, false where it has no value
   :VALUE a       whether A has a value
+  a component    that of a computation, of numbers
   :UNKNOWN       a test of which nothing is known.
 RANGE is what it is at least and at most, of a test 0 for false and 1 for true, CERTAINTY 2 if it
 has a value in any case, 1 perhaps, 0 nowhere; both in the interval that has the number STAMP.
@@ -70,12 +71,13 @@ nothing, however narrow the interval is."
                       (constant-curve (if (zerop (curve-certainty bound)) 0d0 (curve-least bound))
                                       (curve-certainty bound)))
                     (progn (setf (curve-opaque curve)
-                                 (or (opaque-kind-p kind) (some #'curve-opaque args)))
+                                 (or (opaque-kind-p kind args) (some #'curve-opaque args)))
                            curve)))))))
 
-(defun opaque-kind-p (kind)
-  "True if nothing is known of a curve of KIND but at single places."
+(defun opaque-kind-p (kind args)
+  "True if nothing is known of a curve of KIND with ARGS but at single places."
   (cond ((arithmetic-p kind) (null (arithmetic-bounds kind)))
+        ((component-p kind) (not (only-rises-p kind args)))
         ((comparison-p kind) (null (comparison-mirror kind)))
         (t (eq kind :unknown))))
 
@@ -185,7 +187,11 @@ registers that box and matching give, DONE a table of the nodes that have a curv
             (six-curves value inputs done)
             (mapcar (lambda (a b) (if-curve :if (node-curve test inputs done) a b))
                     (six-curves value inputs done)
-                    (six-curves (node :cond nil (first others)) inputs done)))))))
+                    (six-curves (node :cond nil (first others)) inputs done)))))
+    (:computed (computation &rest nodes)
+      (let ((numbers (loop for node in nodes collect (node-curve node inputs done))))
+        (loop for component across (computation-components computation)
+              collect (new-curve component numbers))))))
 
 ;;; Slopes
 
@@ -257,6 +263,7 @@ The variable has those of the interval already."
     (flet ((arg (number) (bounds (nth number args) stamp)))
       (declare (inline arg))
       (cond ((arithmetic-p kind) (operation-bounds curve kind args stamp))
+            ((component-p kind) (component-bounds curve kind args stamp))
             ((comparison-p kind) (comparison-bounds curve kind (arg 0) (arg 1)))
             (t (ecase kind
                  (:not (let ((a (arg 0)))
@@ -299,6 +306,27 @@ The variable has those of the interval already."
   (let ((value (operator-value operator (cons (curve-least a) (and b (list (curve-least b)))))))
     (fill range (or value 0d0))
     (if value 2 0)))
+
+(defun only-rises-p (component args)
+  "True if COMPONENT never falls while those of ARGS rise that vary."
+  (loop for arg in args
+        for rising in (computation-rising (component-computation component))
+        always (or rising (fixed-p arg))))
+
+(defun component-bounds (curve component args stamp)
+  "Give CURVE the bounds of COMPONENT, a number that is computed of ARGS."
+  (let* ((args (loop for arg in args collect (bounds arg stamp)))
+         (points (every #'point-p args)))
+    (flet ((result-at (end)
+             (let ((results (computed-results (component-computation component) (mapcar end args))))
+               (and results (nth (component-index component) results)))))
+      (if (or points (only-rises-p component args))
+          (let ((least (result-at #'curve-least)) (most (result-at #'curve-most)))
+            (if (and least most)
+                (settle curve least most (loop for arg in args minimize (curve-certainty arg)))
+                (settle curve most-negative-double-float most-positive-double-float
+                        (if points 0 1))))
+          (settle curve most-negative-double-float most-positive-double-float 1)))))
 
 (defun comparison-bounds (curve comparison a b)
   "Give CURVE the bounds of COMPARISON between A and B.  One of order is decided where it is so at

@@ -18,6 +18,7 @@ each kind are:
 :LET (node...) body            :CONSTRAINED grasp-face
 :COND (test value)...          :COMPARISON comparison number number
 :LIST number...
+:COMPUTED computation number...
 
 A :LET computes its nodes, whether its body uses them or not."
   (kind nil :read-only t) (args '() :type list :read-only t) (form nil :read-only t))
@@ -28,7 +29,7 @@ A :LET computes its nodes, whether its body uses them or not."
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter +node-kinds+
     '((:number :constant :input :operation :let :cond)
-      (:six :list :let :cond)
+      (:six :list :let :cond :computed)
       (:test :true :false :not :and :or :constrained :comparison))
     "What a node gives, and the kinds of the nodes that give it."))
 

@@ -101,10 +101,22 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
                         (complain place "~a has no value; a grasp is a list of keys and values in ~
                                          turn" key))
                       (push (list key (entry-value key parts) place (consp parts)) entries))))
-    (dolist (key (subseq +grasp-keys+ 0 5))
-      (unless (assoc key entries :test #'string=)
-        (complain form "~a is missing" key)))
+    (check-missing entries form)
     (remove nil entries :key #'fourth)))
+
+(defun check-missing (entries form)
+  "Complain of the keys that ENTRIES of a grasp lack, and of two of which one is enough."
+  (flet ((given-p (key) (assoc key entries :test #'string=)))
+    (dolist (key '("USED-SURFACES" "CONDITIONS"))
+      (unless (given-p key) (complain form "~a is missing" key)))
+    (cond ((not (given-p "REACH"))
+           (unless (given-p "OFFSET")
+             (complain form "OFFSET is missing; REACH may take its place, such as REACH (A 4)"))
+           (dolist (key '("WRENCH" "TWIST"))
+             (unless (given-p key)
+               (complain form "~a is missing~a" key (words-hint key)))))
+          ((given-p "OFFSET")
+           (complain (third (given-p "REACH")) "REACH stands in place of OFFSET; give one of them")))))
 
 (defun key-suggestion (key)
   "Return the phrase that suggests what KEY, which is none, was probably meant to be."
@@ -165,7 +177,8 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
   (name nil :read-only t) (form nil :read-only t) (file nil :read-only t) (line nil :read-only t)
   (comment nil :read-only t) (used nil :read-only t) (palm nil :read-only t)
   (conditions nil :read-only t) (offset nil :read-only t) (contacts nil :read-only t)
-  (wrench nil :read-only t) (twist nil :read-only t))
+  (wrench nil :read-only t) (twist nil :read-only t)
+  (derived '() :read-only t))           ; what the form does not say: forms and sentences
 
 (defun parse-conditions (form scope)
   "Return the node of FORM, the grasping conditions; warn if they never hold."
@@ -181,7 +194,12 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
       (find-if (lambda (entry) (and (constant-p entry) (minusp (constant-value entry)))) entries))
     (:let (nodes body) (declare (ignore nodes)) (negative-twist body))
     (:cond (&rest clauses)
-      (loop for (nil value) in clauses thereis (negative-twist value)))))
+      (loop for (nil value) in clauses thereis (negative-twist value)))
+    (:computed () nil)))
+
+(defun parse-wrench (form scope)
+  "Return the node of FORM, the six entries; warn of sums that were probably products."
+  (watching-sums (parse-form form scope :six)))
 
 (defun parse-twist (form scope)
   "Return the node of FORM, the mobility; complain of an entry below zero."
@@ -197,33 +215,74 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
                 (suggestion (symbol-name name) '("GRIPPER")) +grasp-keys+)
       (parse-grasp-parts name plist form scope)))
 
+(defmacro with-entry ((key entry) &body body)
+  "Run BODY, which reads the value of KEY, whose ENTRY says where it stands."
+  (let ((the-entry (gensym "ENTRY")))
+    `(let* ((,the-entry ,entry) (*place* ,key) (*form* (placed (third ,the-entry))))
+       (counting-steps ((second ,the-entry)) ,@body))))
+
+(defun parse-offset (offset reach placement)
+  "Return the node of what the entries OFFSET or REACH give, and the form that REACH leaves."
+  (cond (offset (with-entry ("OFFSET" offset)
+                  (parse-form (second offset) (placement-scope placement) :six)))
+        (reach (with-entry ("REACH" reach)
+                 (let ((form (reach-form (second reach) placement)))
+                   (and form
+                        (values (parse-form form (placement-scope placement) :six) form)))))))
+
+(defun parse-capacity (key given placement parse)
+  "Return the node of KEY, WRENCH or TWIST, whose entry GIVEN, a function, gives; FROM-CONTACTS stands for
+one that is absent beside REACH.  PARSE is a function of any other value and a scope."
+  (let ((entry (funcall given key)))
+    (when (or entry (funcall given "REACH"))
+      (with-entry (key entry)
+        (let ((value (if entry (second entry) :from-contacts)))
+          (cond ((not (namep value)) (funcall parse value (placement-scope placement)))
+                ((not (part-word key value)) (complain-of-word key value))
+                ((and (placement-contacts placement) (placement-offset placement))
+                 (funcall (third (part-word key value)) placement value))))))))
+
+(defun derived-parts (given offset-form wrench twist contacts)
+  "Return what the entries GIVEN, a function of a key, leave to be derived: lists of a key and a form,
+and sentences."
+  (append (and offset-form (list (list "OFFSET" offset-form)))
+          (and (not (funcall given "CONTACTS"))
+               (list (list "CONTACTS" (loop for (grasp-face) in contacts
+                                            collect (list (svref +grasp-faces+ grasp-face) 0 0)))))
+          (loop for (key node) in (list (list "WRENCH" wrench) (list "TWIST" twist))
+                when (eq (node-kind node) :computed)
+                  collect (second (part-word key (node-form node))))))
+
 (defun parse-grasp-parts (name plist form scope)
-  (let ((*subject* (format nil "GRASP ~a" name)) (*form* form)
-        (entries (let ((*subject* (format nil "GRASP ~a" name))) (grasp-entries plist form))))
+  (let* ((*subject* (format nil "GRASP ~a" name)) (*form* form)
+         (entries (grasp-entries plist form)))
     (flet ((given (key) (assoc key entries :test #'string=)))
-      (macrolet ((at (key form &optional (counted 'form))
-                   `(let ((*place* ,key) (*form* (placed (third (given ,key)))))
-                      (counting-steps (,counted) ,form)))
-                 (part (key form)
+      (macrolet ((part (key form)
                    `(and (given ,key)
-                         (let ((value (second (given ,key)))) (at ,key ,form value)))))
+                         (let ((value (second (given ,key)))) (with-entry (,key (given ,key)) ,form)))))
         (let* ((used (part "USED-SURFACES" (parse-used value)))
                (palm (and (or used (given "PALM"))
-                          (at "PALM" (parse-palm (given "PALM") used))))
+                          (with-entry ("PALM" (given "PALM")) (parse-palm (given "PALM") used))))
                (contacts (and (or (and used palm) (given "CONTACTS"))
-                              (at "CONTACTS"
-                                  (parse-contacts (given "CONTACTS") used palm scope))))
+                              (with-entry ("CONTACTS" (given "CONTACTS"))
+                                (parse-contacts (given "CONTACTS") used palm scope))))
                (conditions (part "CONDITIONS" (parse-conditions value scope)))
-               (offset (part "OFFSET" (parse-form value scope :six)))
-               (wrench (part "WRENCH" (watching-sums (parse-form value scope :six))))
-               (twist (part "TWIST" (parse-twist value scope))))
-          (and used palm contacts conditions offset wrench twist
-               (make-draft :name (symbol-name name) :form form
-                           :file (form-file form)
-                           :line (form-line form)
-                           :comment (and *comments* (gethash form *comments*))
-                           :used used :palm palm :contacts contacts :conditions conditions
-                           :offset offset :wrench wrench :twist twist)))))))
+               (placement (make-placement :used used :palm palm :contacts contacts :scope scope)))
+          (multiple-value-bind (offset offset-form)
+              (and (or (given "OFFSET") (and used palm contacts))
+                   (parse-offset (given "OFFSET") (given "REACH") placement))
+            (setf (placement-offset placement) offset)
+            (let ((wrench (parse-capacity "WRENCH" #'given placement #'parse-wrench))
+                  (twist (parse-capacity "TWIST" #'given placement #'parse-twist)))
+              (and used palm contacts conditions offset wrench twist
+                   (make-draft :name (symbol-name name) :form form
+                               :file (form-file form)
+                               :line (form-line form)
+                               :comment (and *comments* (gethash form *comments*))
+                               :used used :palm palm :contacts contacts :conditions conditions
+                               :offset offset :wrench wrench :twist twist
+                               :derived (derived-parts #'given offset-form wrench twist
+                                                       contacts))))))))))
 
 ;;; From drafts to grasps
 

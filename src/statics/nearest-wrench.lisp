@@ -263,6 +263,14 @@ they press, the two forces across, and the torque about the normal."
             (loop for number in (list 1d0 one two turn) for place from (* 4 i)
                   do (incf (aref forces place) (* share number)))))))))
 
+(defun nearest-forces (f)
+  "Return the forces of the fingers of F at the nearest mixture that it has found: see GRIP-FORCES."
+  (declare (type finder f))
+  (let ((forces (make-doubles (* 4 (f-count f)))) (motion (make-six)))
+    (dotimes (i (f-size f) forces)
+      (replace motion (f-motions f) :start2 (* 6 i))
+      (add-forces f motion (aref (f-shares f) i) forces))))
+
 (defun grip-forces (grip wrench)
   "Return the forces of the fingers of GRIP that together exert WRENCH, a six: four numbers a
 finger, how much it presses, two forces across (see SET-FINGER), and the torque about the normal.
@@ -270,10 +278,7 @@ If there are none, return NIL and a motion in which the fingers do less power th
   (declare (type grip grip) (type six wrench))
   (multiple-value-bind (reached f) (grip-reach grip wrench)
     (if reached
-        (let ((forces (make-doubles (* 4 (grip-count grip)))) (motion (make-six)))
-          (dotimes (i (f-size f) forces)
-            (replace motion (f-motions f) :start2 (* 6 i))
-            (add-forces f motion (aref (f-shares f) i) forces)))
+        (nearest-forces f)
         (values nil (out-of-frame (f-frame f) (f-q f))))))
 
 (defun farthest (f way from)

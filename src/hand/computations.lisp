@@ -1,0 +1,93 @@
+;;;; computations.lisp -- numbers that a function computes of other numbers, and keeps for a while.
+;;;;
+;;;; What forms can't say, such as what contacts can exert, is a computation.  It takes a thousand times
+;;;; as long as a form, and the same numbers come again.  So it has a table of bounded size, in which a
+;;;; result takes the place of another one: no list grows, and no lock is needed, since an entry never
+;;;; changes once it is there.
+
+(in-package :supergrip)
+
+(defconstant +places-kept+ 1024 "How many results a computation keeps at most, a power of 2.")
+
+(defstruct (computation (:copier nil))
+  "COUNT numbers that FUNCTION, of a vector of doubles, returns as another, or NIL if they have no
+value.  Of the numbers that it takes, NUMBERS, those at PLACES vary.  RISING are those PLACES with which
+the results never fall.  COMPONENTS has an object for each result, for curves.  KEPT holds entries:
+what varies, then the results, if there are any."
+  (name nil :read-only t) (function nil :type function :read-only t)
+  (count 0 :type fixnum :read-only t) (numbers nil :read-only t)
+  (places '() :type list :read-only t) (rising '() :type list :read-only t)
+  (components nil :type simple-vector)
+  (kept (make-array +places-kept+ :initial-element nil) :type simple-vector :read-only t))
+
+(define-printing (computation computation) "~a" (computation-name computation))
+
+(defstruct (component (:constructor make-component (computation index)) (:copier nil))
+  "The result of COMPUTATION that is at INDEX."
+  (computation nil :type computation :read-only t) (index 0 :type fixnum :read-only t))
+
+(define-printing (component component) "~d of ~a" (component-index component)
+  (computation-name (component-computation component)))
+
+(deftype numbers () '(simple-array double-float (*)))
+
+(declaim (inline place-kept))
+(defun place-kept (registers from)
+  "Return the place in the table for the numbers that the registers FROM hold."
+  (declare (type registers registers) (type register-vector from))
+  (let ((hash 0))
+    (declare (type (unsigned-byte 62) hash))
+    (loop for register across from
+          do (setf hash (ldb (byte 62 0)
+                             (logxor (ldb (byte 62 0) (* hash 1000003))
+                                     (double-bits (aref registers register))))))
+    ;; The bits of plain numbers differ at the upper end.
+    (logand (logxor hash (ash hash -17) (ash hash -34) (ash hash -47)) (1- +places-kept+))))
+
+(declaim (inline same-numbers-p))
+(defun same-numbers-p (entry registers from)
+  (declare (type numbers entry) (type registers registers) (type register-vector from))
+  (loop for register across from
+        for place of-type fixnum from 0
+        always (= (aref entry place) (aref registers register))))
+
+(defun new-entry (computation registers from)
+  "Return the entry of COMPUTATION for the numbers in the registers FROM, computed now."
+  (declare (type register-vector from))
+  (let ((numbers (copy-seq (the numbers (computation-numbers computation))))
+        (key (map 'numbers (lambda (register) (aref registers register)) from)))
+    (loop for place in (computation-places computation)
+          for number across key
+          do (setf (aref numbers place) number))
+    (let ((results (funcall (computation-function computation) numbers)))
+      (if (and results (every #'finite-p results))
+          (concatenate 'numbers key results)
+          key))))
+
+(defun computation-step (computation next from to)
+  "Return the closure that puts the results of COMPUTATION, of the numbers in the registers FROM, into
+those from TO, and calls NEXT.  It returns NIL if they have no value."
+  (declare (type register-vector from) (type register to) (function next))
+  (let ((kept (computation-kept computation)) (count (computation-count computation))
+        (width (length from)))
+    (lambda (registers)
+      (declare (type registers registers) (optimize speed))
+      (let* ((place (place-kept registers from))
+             (known (svref kept place))
+             (entry (if (and known (same-numbers-p known registers from))
+                        known
+                        (keep-in kept place (new-entry computation registers from)))))
+        (declare (type numbers entry))
+        (when (> (length entry) width)
+          (dotimes (i count)
+            (setf (aref registers (+ to i)) (aref entry (+ width i))))
+          (funcall next registers))))))
+
+(defun computed-results (computation numbers)
+  "Return what COMPUTATION gives for NUMBERS, a list of those that vary: a list, or NIL."
+  (let* ((width (length numbers)) (count (computation-count computation))
+         (registers (make-array (+ width count) :element-type 'double-float))
+         (from (coerce (loop for i below width collect i) 'register-vector)))
+    (replace registers numbers)
+    (and (funcall (the function (computation-step computation (constantly t) from width)) registers)
+         (coerce (subseq registers width) 'list))))
