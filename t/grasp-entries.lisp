@@ -140,10 +140,10 @@ it has + in WRENCH, and OFFSET for the list that the scan damaged."
 (test mistakes-in-every-shape-are-named
   (loop for (from to . reports) in
         '(("(CONDITIONS (u" "(CONDITION (u"
-           "grasps.lisp:3: GRASP G: unknown key (CONDITION (U > 1) AND (V > 0) OR (NOT (CONSTRAINED O1))) (did you mean CONDITIONS?); keys are USED-SURFACES, CONDITIONS, OFFSET, WRENCH, TWIST, CONTACTS, PALM"
+           "grasps.lisp:3: GRASP G: unknown key (CONDITION (U > 1) AND (V > 0) OR (NOT (CONSTRAINED O1))) (did you mean CONDITIONS?); keys are USED-SURFACES, CONDITIONS, OFFSET, REACH, WRENCH, TWIST, CONTACTS, PALM"
            "grasps.lisp:3: GRASP G: CONDITIONS is missing")
           ("(OFFSET (LIST 0 0 0 0 (- u) u))" ""
-           "grasps.lisp:3: GRASP G: OFFSET is missing")
+           "grasps.lisp:3: GRASP G: OFFSET is missing; REACH may take its place, such as REACH (A 4)")
           ("(OFFSET (LIST 0 0 0 0 (- u) u))" "(OFFSET)"
            "grasps.lisp:4: GRASP G: OFFSET has no value; a grasp is a list of keys and values in turn")
           ("(OFFSET (LIST 0 0 0 0 (- u) u))" "OFFSET"
@@ -169,9 +169,9 @@ it has + in WRENCH, and OFFSET for the list that the scan damaged."
           ;; The scan's parentheses: the grasp ends too early.
           ("(OFFSET (LIST 0 0 0 0 (- u) u))" "))
  (OFFSET (LIST 0 0 0 0 (- u) u)) (SETQ H '(USED-SURFACES (N1 N2 A2) CONDITIONS T OFFSET '(0 0 0 0 0 0)"
-           "grasps.lisp:3: GRASP G: OFFSET is missing"
-           "grasps.lisp:3: GRASP G: WRENCH is missing"
-           "grasps.lisp:3: GRASP G: TWIST is missing"
+           "grasps.lisp:3: GRASP G: OFFSET is missing; REACH may take its place, such as REACH (A 4)"
+           "grasps.lisp:3: GRASP G: WRENCH is missing; WRENCH FROM-CONTACTS computes it"
+           "grasps.lisp:3: GRASP G: TWIST is missing; TWIST FROM-CONTACTS computes it"
            "grasps.lisp:5: OFFSET stands outside of a grasp: a ) before it is one too many"))
         do (let ((said (shape-reports from to)))
              (is (equal reports said) "~a~%gave ~{~a~%~}" to said))))
@@ -199,9 +199,9 @@ it has + in WRENCH, and OFFSET for the list that the scan damaged."
             ("(TWIST (1 1 1 1 1 1))" "(TWIST (1 . 2))"
              "GRASP G, TWIST: dotted pairs are not read: (1 . 2)")
             ("(OFFSET (LIST 0 0 0 0 (- u) u))" ""
-             "GRASP G: OFFSET is missing")
+             "GRASP G: OFFSET is missing; REACH may take its place, such as REACH (A 4)")
             ("USED-SURFACES" "USED-SURFACE"
-             "GRASP G: unknown key (USED-SURFACE (N1 N2 A2)) (did you mean USED-SURFACES?); keys are USED-SURFACES, CONDITIONS, OFFSET, WRENCH, TWIST, CONTACTS, PALM")
+             "GRASP G: unknown key (USED-SURFACE (N1 N2 A2)) (did you mean USED-SURFACES?); keys are USED-SURFACES, CONDITIONS, OFFSET, REACH, WRENCH, TWIST, CONTACTS, PALM")
             ("(WRENCH (1" "(WRENCH ((FROB u)"
              "GRASP G, WRENCH: unknown operator FROB"))
           do (let ((said (typed-report (changed (first *shapes*) from to))))

@@ -70,7 +70,7 @@
      "grasps.lisp:6: warning: GRASP G: no rule tries it")
     (:GRASPS "(SETQ GRIPPER" "(SETQ GRIPER"
      "grasps.lisp: GRIPPER: there is no (SETQ GRIPPER '(...))"
-     "grasps.lisp:1: GRIPER is not a grasp (did you mean GRIPPER?): its list has none of the keys USED-SURFACES, CONDITIONS, OFFSET, WRENCH, TWIST, CONTACTS, PALM")
+     "grasps.lisp:1: GRIPER is not a grasp (did you mean GRIPPER?): its list has none of the keys USED-SURFACES, CONDITIONS, OFFSET, REACH, WRENCH, TWIST, CONTACTS, PALM")
     (:GRASPS "FINGER-LENGTH 3" "FINGER-LENGTH"
      "grasps.lisp:1: GRIPPER: FINGER-LENGTH has no number after it")
     (:GRASPS "FINGER-LENGTH 3" ""
@@ -110,7 +110,7 @@
     (:GRASPS "USED-SURFACES (N1 N2 A2)" ""
      "grasps.lisp:6: GRASP G: USED-SURFACES is missing")
     (:GRASPS "USED-SURFACES" "USED-SURFACE"
-     "grasps.lisp:7: GRASP G: unknown key USED-SURFACE (did you mean USED-SURFACES?); keys are USED-SURFACES, CONDITIONS, OFFSET, WRENCH, TWIST, CONTACTS, PALM"
+     "grasps.lisp:7: GRASP G: unknown key USED-SURFACE (did you mean USED-SURFACES?); keys are USED-SURFACES, CONDITIONS, OFFSET, REACH, WRENCH, TWIST, CONTACTS, PALM"
      "grasps.lisp:6: GRASP G: USED-SURFACES is missing")
     (:GRASPS "USED-SURFACES (N1 N2 A2)" "USED-SURFACES (N1 N2 X1)"
      "grasps.lisp:7: GRASP G, USED-SURFACES: (N1 N2 X1): USED-SURFACES are some of N1 N2 O1 O2 A1 A2")

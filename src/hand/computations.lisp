@@ -7,7 +7,8 @@
 
 (in-package :supergrip)
 
-(defconstant +places-kept+ 1024 "How many results a computation keeps at most, a power of 2.")
+(defconstant +bits-kept+ 10 "How many bits say where a result is kept.")
+(defconstant +places-kept+ (ash 1 +bits-kept+) "How many results a computation keeps at most.")
 
 (defstruct (computation (:copier nil))
   "COUNT numbers that FUNCTION, of a vector of doubles, returns as another, or NIL if they have no
@@ -36,13 +37,12 @@ what varies, then the results, if there are any."
   "Return the place in the table for the numbers that the registers FROM hold."
   (declare (type registers registers) (type register-vector from))
   (let ((hash 0))
-    (declare (type (unsigned-byte 62) hash))
+    (declare (type (unsigned-byte 64) hash))
     (loop for register across from
-          do (setf hash (ldb (byte 62 0)
-                             (logxor (ldb (byte 62 0) (* hash 1000003))
-                                     (double-bits (aref registers register))))))
-    ;; The bits of plain numbers differ at the upper end.
-    (logand (logxor hash (ash hash -17) (ash hash -34) (ash hash -47)) (1- +places-kept+))))
+          do (setf hash (ldb (byte 64 0) (* (logxor hash (double-bits (aref registers register)))
+                                            #x9E3779B97F4A7C15))
+                   hash (logxor hash (ash hash -29))))
+    (ldb (byte +bits-kept+ 20) hash)))
 
 (declaim (inline same-numbers-p))
 (defun same-numbers-p (entry registers from)

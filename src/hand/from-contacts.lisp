@@ -111,7 +111,7 @@ of them is NIL.  They never fall as one of the nodes RISING rises."
 
 (defun inward-normal (grasp-face)
   "Return the inward normal of GRASP-FACE along N O A, a three."
-  (let ((normal (make-three)))
+  (let ((normal (make-array 3 :element-type 'double-float :initial-element 0d0)))
     (setf (aref normal (floor grasp-face 2)) (if (evenp grasp-face) -1d0 1d0))
     normal))
 
@@ -200,13 +200,13 @@ distance of the bases, and the places of the fingers, three each."
 (defun side-reached (axis placement)
   "Return the grasp face that the hand comes over along AXIS, or complain: that of the palm, or the one
 used."
-  (let* ((faces (list (* 2 axis) (1+ (* 2 axis))))
+  (let* ((faces (list (* 2 axis) (1+ (* 2 axis)))) (names (pair-names axis))
          (used (intersection faces (placement-used placement))))
     (cond ((find (placement-palm placement) faces))
           ((= 1 (length used)) (first used))
-          (t (complain *form* "the reach along ~a: ~:[none~;both~] of ~{~a and ~a~} ~:*~:*~:[is~;are~*~]~
-                               ~:* used, so the hand comes over neither; leave ~a out"
-                       (svref +axis-names+ axis) used (pair-names axis)
+          (t (complain *form* "the reach along ~a: ~:[neither ~a nor ~a is~;both ~a and ~a are~] used, ~
+                               so the hand comes over neither; leave ~a out"
+                       (svref +axis-names+ axis) used (first names) (second names)
                        (svref +axis-names+ axis))))))
 
 (defun finger-reach-form (axis placement)

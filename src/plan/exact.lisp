@@ -35,11 +35,10 @@ from them, or a whole :SEARCH."
 
 (define-step (contact-closure :exact) :open (candidate workspace)
   (without-float-traps
-    (let ((grasp (%candidate-grasp candidate)) (wrench (workspace-wrench workspace)))
+    (let ((grasp (%candidate-grasp candidate)))
       ;; The WRENCH entries decide nothing here; they are only shown.
-      (fill wrench 0d0)
-      (unless (turn-entries (grasp-wrench grasp) candidate workspace wrench 0d0)
-        (fill wrench 0d0))
+      (unless (turn-wrench candidate workspace)
+        (fill (workspace-wrench workspace) 0d0))
       (when (turn-entries (grasp-twist grasp) candidate workspace (workspace-twist workspace)
                           -1d-300)
         (turn-centre workspace (%candidate-matching candidate) candidate)

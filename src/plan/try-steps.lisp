@@ -52,7 +52,8 @@ best candidate, or NIL."
 (defstruct (workspace (:constructor %make-workspace (registers tried)))
   "All that trying grasps on one box needs and leaves: the registers, what was tried of each grasp
 (a set of matchings), and the BEST candidate.  The arrays are the current candidate's, in the box
-frame: WRENCH and TWIST what the grasp can do, LOAD what gravity asks, SPARE what it leaves of
+frame: WRENCH and TWIST what the grasp can do, AHEAD and BEHIND what it exerts along and against the
+axes if its WRENCH says so, LOAD what gravity asks, SPARE what it leaves of
 WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   (box nil :type (or null box)) (gamma 0.5d0 :type double-float)
   (index (first *indices*) :type index) (steps '() :type list)
@@ -62,6 +63,7 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   (lengths (make-three) :type three) (centre (make-three) :type three)
   (offset (make-three) :type three)
   (wrench (make-six) :type six) (twist (make-six) :type six)
+  (ahead (make-six) :type six) (behind (make-six) :type six)
   (load (make-six) :type six) (spare (make-six) :type six)
   (force-needs (make-six) :type six) (velocity-needs (make-six) :type six))
 
@@ -214,9 +216,39 @@ A candidate that fails has OUTCOME, a keyword."
                           (setf (aref out axis) entry)
                           t))))))
 
+(defun turn-both-ways (program candidate workspace)
+  "Put the twelve values of PROGRAM, those along the axes of CANDIDATE and those against them, into the
+workspace: AHEAD and BEHIND of the axes of the box, and the lesser of both.  NIL if one is not above 0."
+  (declare (type program program) (type workspace workspace))
+  (let* ((registers (workspace-registers workspace)) (results (program-results program))
+         (matching (%candidate-matching candidate))
+         (wrench (workspace-wrench workspace))
+         (ahead (workspace-ahead workspace)) (behind (workspace-behind workspace)))
+    (and (execute program registers)
+         (dotimes (i 6 t)
+           (let* ((axis (aref (matching-axes matching) i))
+                  (along (aref registers (aref results i)))
+                  (against (aref registers (aref results (+ i 6)))))
+             (when (minusp (aref (matching-signs matching) (mod i 3)))
+               (rotatef along against))
+             (setf (aref ahead axis) along
+                   (aref behind axis) against
+                   (aref wrench axis) (min along against))
+             (unless (> (aref wrench axis) 0d0) (return nil)))))))
+
+(declaim (inline turn-wrench))
+(defun turn-wrench (candidate workspace)
+  "Put what CANDIDATE exerts into the workspace.  NIL if there is an axis along which it exerts nothing."
+  (declare (type candidate candidate) (type workspace workspace))
+  (let ((program (grasp-wrench (%candidate-grasp candidate))))
+    (declare (type program program))
+    (if (= 6 (length (program-results program)))
+        (turn-entries program candidate workspace (workspace-wrench workspace) 0d0)
+        (turn-both-ways program candidate workspace))))
+
 (define-step (closure :paper) :open (candidate workspace)
   (let ((grasp (%candidate-grasp candidate)))
-    (and (turn-entries (grasp-wrench grasp) candidate workspace (workspace-wrench workspace) 0d0)
+    (and (turn-wrench candidate workspace)
          (turn-entries (grasp-twist grasp) candidate workspace (workspace-twist workspace)
                        -1d-300))))
 

@@ -121,7 +121,7 @@ for each unit of it; NIL if there are none."
          (l2 (finger-outer-lever finger)) (d2 (finger-outer-depth finger))
          (determinant (- (* d2 l1) (* d1 l2))))
     (cond ((and (zerop out) (zerop along)) (values 0d0 0d0))
-          ((or (not (finger-reaches finger)) (< (abs determinant) 1d-9)) nil)
+          ((< (abs determinant) 1d-9) nil)
           (t (values (/ (- (* out (- l2)) (* along d2)) (- determinant))
                      (/ (+ (* out l1) (* along d1)) (- determinant)))))))
 
@@ -140,7 +140,8 @@ joint drives."
                (when (> rate 1d-12) (setf most (min most (/ greatest rate)))))))
       (multiple-value-bind (first second)
           (joint-rates finger (dot-3 velocity (finger-outward finger)) (dot-3 velocity approach))
-        (unless first (return-from finger-speed 0d0))
+        (unless (and first (finger-reaches finger))
+          (return-from finger-speed 0d0))
         (limit first 1d0)
         (limit second 1d0))
       (cond ((> (abs lever) 1d-9)

@@ -119,6 +119,7 @@ Returns the grasp."
     (plainly
       (write-grasp-form grasp stream)
       (write-comment (grasp-comment grasp) stream)
+      (write-derived (draft-derived (grasp-draft grasp)) stream)
       (format stream "In words: ~{~a on ~a~^, ~}; the palm over ~a; ~{~a~^ ~} must be free.~%"
               (fingers-on grasp (lambda (grasp-face) (svref +grasp-faces+ grasp-face)))
               (svref +grasp-faces+ (grasp-palm grasp))
@@ -129,6 +130,15 @@ Returns the grasp."
                                   collect (rule-name rule))
                           '("no rule")))))
     grasp))
+
+(defun write-derived (parts stream)
+  "Write to STREAM what was derived for a grasp, PARTS: lists of a key and a form, and sentences."
+  (dolist (part parts)
+    (cond ((consp part)
+           (format stream "Derived: ~a " (first part))
+           (write-filled (second part) (+ 10 (length (first part))) stream))
+          (t (write-string part stream)))
+    (terpri stream)))
 
 (defun write-grasp-form (grasp stream)
   (format stream "(SETQ ~a~%  '(" (grasp-name grasp))

@@ -1,0 +1,124 @@
+;;;; from-contacts.lisp -- grasps that need no formulas: REACH, and WRENCH and TWIST FROM-CONTACTS.
+
+(in-package :supergrip-test)
+(define-suite from-contacts
+  "Grasps that need no formulas: REACH, and WRENCH and TWIST FROM-CONTACTS.")
+
+(defun further-work ()
+  "Return the knowledge of examples/further-work, without its warnings."
+  (handler-bind ((warning #'muffle-warning))
+    (supergrip:load-knowledge
+     :rules (project-file "examples/further-work/rules.lisp")
+     :grasps (project-file "examples/further-work/grasps.lisp"))))
+
+(defparameter *pencil-lines* 4 "How many of the best grasps of the pencil are those of the paper.")
+
+;;; What is wrong is said
+
+(defun reach-reports (&rest changes)
+  "Return what is said of a grasp that has REACH, with CHANGES, as of GRASP-REPORTS."
+  (apply #'grasp-reports
+         (append changes '(:offset nil :wrench nil :twist nil))))
+
+(test a-grasp-of-five-lines-is-good
+  (is (null (reach-reports :contacts "((N1 0 0) (N2 0 0)) REACH (A 4)")))
+  (is (null (reach-reports :contacts nil :palm "A2 REACH (A FROM-FINGERS)")))
+  (is (null (reach-reports :palm "A2 REACH (A (+ FINGER-LENGTH 1))"))))
+
+(test mistakes-in-a-reach-are-named
+  (loop for (reach . reports) in
+        '(("(A)" "REACH: (A): REACH gives axes and lengths in turn, such as (N 4.85 A 4.85)")
+          ("(X 4)" "REACH: X is not an axis: REACH is along N, O or A")
+          ("(A2 4)" "REACH: A2 is not an axis: REACH is along N, O or A")
+          ("(A 4 A 5)" "REACH: the reach along A is given twice")
+          ("(A 0)" "REACH: the reach along A is 0; it is a length above 0")
+          ("(N 4)" "REACH: the reach along N: both N1 and N2 are used, so the hand comes over neither; leave N out")
+          ("(O 4)" "REACH: the reach along O: neither O1 nor O2 is used, so the hand comes over neither; leave O out")
+          ("(A FINGER-LENGHT)" "REACH: unknown name FINGER-LENGHT (did you mean FINGER-LENGTH?); known are U, V, the gripper's dimensions, a helper's parameters and what LET* binds")
+          ("(A 4) OFFSET (0 0 0 0 0 0)" ": REACH stands in place of OFFSET; give one of them"))
+        do (is (equal (loop for report in reports
+                            collect (format nil "grasps.lisp:7: GRASP G~:[, ~;~]~a"
+                                            (eql #\: (char report 0)) report))
+                      (reach-reports :palm (format nil "A2~% REACH ~a" reach)))
+               "~a" reach))
+  (is (equal '("grasps.lisp:7: GRASP G, REACH: the reach along A: FROM-FINGERS is that of fingers on two opposite faces beside it; write a length")
+             (reach-reports :used-surfaces "(N1 O1 A2)" :contacts "((N1 0 0) (O1 0 0))"
+                            :palm (format nil "A2~% REACH (A FROM-FINGERS)")))))
+
+(test mistakes-in-words-are-named
+  (is (equal '("grasps.lisp:3: GRASP G, WRENCH: FROM-CONTACT is not a list of six entries (did you mean FROM-CONTACTS?); WRENCH FROM-CONTACTS computes it")
+             (grasp-reports :wrench "FROM-CONTACT")))
+  (is (null (grasp-reports :wrench "FROM-CONTACTS" :twist "from-contacts"))))
+
+;;; What is derived
+
+(defun shipped-and-derived (name)
+  "Return the grasp NAME of the shipped knowledge, and that of examples/further-work."
+  (values (shipped-grasp name)
+          (supergrip::find-grasp (supergrip::knowledge-graspbase (further-work)) name)))
+
+(defun program-values (program graspbase size u v)
+  "Return the results of PROGRAM on a box of SIZE along N O A, or NIL."
+  (let ((registers (copy-seq (supergrip::graspbase-registers graspbase))))
+    (setf (aref registers supergrip::+u+) u (aref registers supergrip::+v+) v)
+    (replace registers size :start1 supergrip::+distances+)
+    (and (supergrip-data:without-float-traps (supergrip::execute program registers))
+         (loop for register across (supergrip::program-results program)
+               collect (aref registers register)))))
+
+(defun random-sizes (state)
+  (loop repeat 3 collect (random-between 0.6d0 20d0 state)))
+
+(test offsets-are-those-of-the-shipped-grasps
+  (let ((state (sb-ext:seed-random-state 5)) (shipped (supergrip::knowledge-graspbase supergrip:*knowledge*))
+        (derived (supergrip::knowledge-graspbase (further-work))))
+    (dolist (grasp (supergrip:knowledge-grasps supergrip:*knowledge*))
+      (let ((other (supergrip::find-grasp derived (supergrip:grasp-name grasp))))
+        (is (loop repeat 300
+                  for size = (random-sizes state)
+                  always (equalp (program-values (supergrip::grasp-offset grasp) shipped size 0.5d0 0.2d0)
+                                 (program-values (supergrip::grasp-offset other) derived size
+                                                 0.5d0 0.2d0)))
+            "~a" grasp)))))
+
+(defun exact-p (name axis)
+  (nth axis (rest (assoc name *exact* :test #'string=))))
+
+(test entries-agree-with-the-shipped-ones
+  (let ((state (sb-ext:seed-random-state 11)) (shipped (supergrip::knowledge-graspbase supergrip:*knowledge*))
+        (derived (supergrip::knowledge-graspbase (further-work))) (compared 0))
+    (dolist (grasp (supergrip:knowledge-grasps supergrip:*knowledge*))
+      (let* ((name (supergrip:grasp-name grasp)) (other (supergrip::find-grasp derived name)))
+        (loop repeat 12
+              for size = (random-sizes state)
+              for u = (random 2d0 state) for v = (random 0.4d0 state)
+              for old = (program-values (supergrip::grasp-wrench grasp) shipped size u v)
+              for new = (and old (program-values (supergrip::grasp-wrench other) derived size u v))
+              when (and new (every #'plusp new) (every #'plusp old))
+                do (incf compared)
+                   (loop for a in old
+                         for b in (both-ways new)
+                         for axis from 0
+                         do (is (if (exact-p name axis)
+                                    (< (abs (- a b)) (* 5d-5 a))
+                                    (<= a (* b (+ 1 5d-5))))
+                                "~a, ~a, u ~a, v ~a: entry ~d: ~a, shipped ~a" name size u v axis b a)))))
+    (is (> compared 30))))
+
+(test the-pencil-keeps-its-winner
+  (let ((lines (lambda (knowledge)
+                 (loop for candidate in (supergrip:plan-possible
+                                         (supergrip:plan (paper-box) :knowledge knowledge))
+                       repeat *pencil-lines*
+                       collect (list (supergrip:candidate-grasp candidate)
+                                     (supergrip:candidate-matching candidate))))))
+    (is (equal (funcall lines supergrip:*knowledge*) (funcall lines (further-work))))))
+
+(test what-is-derived-is-described
+  (let* ((knowledge (further-work))
+         (text (with-output-to-string (out)
+                 (supergrip:describe-grasp "PINCH-3-C-SHAPE" :knowledge knowledge :stream out))))
+    (is (search "Derived: OFFSET" text))
+    (is (search "(POSIT (- (/ (DIST '(O1 O2)) 2) REACH-C))" text))
+    (is (search "WRENCH is what the contacts exert" text))
+    (is (search "TWIST is how well" text))))
