@@ -217,6 +217,130 @@ certified alone and looked at from STARTS; how many there are; and the last valu
                                plan))))
     (is (equal record (json-record (json-line record))))))
 
+;;; Explanations: each figure is computed in another way
+
+(defun powers-at (case motion)
+  "Return what pressing, friction, torques and the weight of CASE do at most in MOTION, four numbers."
+  (destructuring-bind (contacts u v need gravity) case
+    (declare (ignore need))
+    (loop with turn = (nthcdr 3 motion)
+          for (place normal) in contacts
+          for velocity = (mapcar #'+ (subseq motion 0 3) (vector-product turn place))
+          for along = (dot velocity normal)
+          for slip = (* u (sqrt (max 0 (- (dot velocity velocity) (* along along)))))
+          for twist = (* v (abs (dot turn normal)))
+          when (plusp (+ along slip twist))
+            sum along into pressing and sum slip into friction and sum twist into torque
+          finally (return (list pressing friction torque (dot gravity motion))))))
+
+(test what-limits-an-exact-choice-is-told-with-its-figures
+  (let* ((plan (exact-plan (paper-box))) (best (supergrip:plan-best plan))
+         (case (candidate-case best plan (needed plan)))
+         (lines (printed (supergrip:explain-best plan))))
+    (multiple-value-bind (upper lower worst) (exact-radius-of case)
+      (is (<= lower 0.880d0 upper 0.8885d0)) ; by cone programming, and the gap
+      (is (equal (list (format nil "Force is limited where the box is pushed along -Y and turned about ~
+                                    +Y: radius ~,3f, proved, and at most ~,3f." lower upper)
+                       (format nil "  There pressing gives ~,3f, friction ~,3f, the fingertips' torque ~
+                                    ~,3f, the weight ~,3f; the task needs 1."
+                               . #1=((first (powers-at case worst)) (second (powers-at case worst))
+                                     (third (powers-at case worst)) (fourth (powers-at case worst)))))
+                 (subseq lines 1 3)))
+      (is (close-to upper (+ . #1#)))
+      (is (find (format nil "The contacts bear at most ~,4f of the force asked for, which is enough if ~
+                             the needs only say what matters more." upper)
+                lines :test #'string=))
+      (is (notany (lambda (line) (search "Exactly, " line)) lines)))))
+
+(test what-is-told-of-the-default-choice-is-true
+  "What is sure, what is exact, and what is asked for, against a search over many motions."
+  (let ((told 0))
+    (for-random-boxes (box 100 12)
+      (let* ((plan (supergrip:plan box)) (best (supergrip:plan-best plan)))
+        (when (and best (notevery #'zerop (needed plan)))
+          (let* ((choice (supergrip:explain-choice plan))
+                 (upper (supergrip::exact-limit-upper (supergrip::choice-truth choice)))
+                 (met (least-ratio-met (candidate-case best plan (needed plan)) 10))
+                 (lines (printed (supergrip:write-answer choice *standard-output*)))
+                 (short (find "The contacts bear at most " lines :test #'search)))
+            (is (<= (supergrip:choice-sure choice) (+ met 1d-9)))
+            (is (<= (or (supergrip::exact-limit-certified (supergrip::choice-truth choice)) 0)
+                    (+ met 1d-9)))
+            (is (eq (and short t) (< upper (- 1 1d-9))))
+            (when short (incf told))))))
+    (is (< 3 told))))
+
+(test grasps-that-promise-more-than-their-contacts-can-do-are-told-of
+  (let ((knowledge (text-knowledge "(RULE R (IF (OPPOSED (s1 s2))) (THEN (TRY G) (KEEP BEST)))"
+                                   (format nil "~a~%~a" *small-gripper*
+                                           (grasp-text :wrench "(9 9 9 9 9 9)")))))
+    (is (search "more than the contacts can exert."
+                (format nil "~{~a~}"
+                        (printed (supergrip:explain-best
+                                  (supergrip:plan (changed-box :size 2 2 2)
+                                                  :knowledge knowledge))))))))
+
+(test a-bound-of-q-is-told-as-one
+  (let* ((plan (exact-plan (paper-box)))
+         (other (find-if #'supergrip:candidate-bound-p (supergrip:plan-possible plan)))
+         (bound (supergrip:candidate-quality other)))
+    (is (equal (format nil "~a (~{~a~^ ~}): its Q is at most ~,3f, at least ~a below ~a (~{~a~^ ~})."
+                       (supergrip:candidate-grasp other) (supergrip:candidate-matching other) bound
+                       (supergrip::number-text (- (supergrip:plan-quality plan) bound))
+                       (supergrip:plan-grasp plan) (supergrip:plan-matching plan))
+               (why-not-line plan (supergrip:candidate-grasp other)
+                             (supergrip:candidate-matching other))))
+    (is (<= (quality-with other plan (radius-alone other plan 10)) bound))))
+
+(test what-contacts-do-not-close-needs-the-friction-that-is-told
+  (let* ((plan (supergrip:try-grasp "PINCH-3-CORNER" (paper-box) :index :exact))
+         (other (find :open (supergrip:plan-rejected plan) :key #'supergrip:candidate-outcome)))
+    (is (equal "open: the contacts don't close on this shape; needs u > 0.9535, has 0.8"
+               (nth-value 1 (supergrip:candidate-failure other plan))))
+    (destructuring-bind (contacts u v &rest rest) (candidate-case other plan '(1 1 1 1 1 1))
+      (declare (ignore u rest))
+      (flet ((radius (u) (supergrip:exact-radius contacts u v '(1 1 1 1 1 1) :absolute 0)))
+        (is (zerop (radius 0.9534d0)))
+        (is (plusp (radius 0.9536d0))))))
+  ;; Nothing resists a turn about the line between two fingers.
+  (let ((plan (supergrip:try-grasp "PINCH-2-PARALLEL" (changed-box :v 0) :index :exact)))
+    (is (search "open: the contacts don't close on this shape with any friction"
+                (supergrip:plan-reason plan)))))
+
+(test what-contacts-do-not-hold-is-told-with-what-they-bear
+  ;; Two fingers press as much as the third, which presses with 1: friction gives 2 u.
+  (let ((plan (supergrip:try-grasp "PINCH-3-PARALLEL" (changed-box :weight 1.8d0) :index :exact)))
+    (is (eql 0 (search "it can't hold the weight: the load is 1.8, the contacts bear 1.6 in this direction; the box would give way, moving along -Z"
+                       (nth-value 1 (supergrip:candidate-failure
+                                     (find :lifting (supergrip:plan-rejected plan)
+                                           :key #'supergrip:candidate-outcome)
+                                     plan)))))))
+
+(test rejected-candidates-are-open-or-drop-the-box
+  "By a motion in which the fingers can do nothing, or less than the weight."
+  (let ((open 0) (dropping 0))
+    (for-random-boxes (box 100 14)
+      (let ((plan (exact-plan box)))
+        (dolist (candidate (supergrip:plan-rejected plan))
+          (case (supergrip:candidate-outcome candidate)
+            (:open
+             (incf open)
+             (destructuring-bind (contacts u v need gravity)
+                 (candidate-case candidate plan '(1 1 1 1 1 1))
+               (declare (ignore gravity))
+               (let ((worst (nth-value 2 (supergrip:exact-radius contacts u v need))))
+                 (is (< (power-of contacts u v worst) 1d-3)))))
+            (:lifting
+             (incf dropping)
+             (let ((case (candidate-case candidate plan '(1 1 1 1 1 1))))
+               (is (minusp (spare-power case (nth-value 1 (supergrip:holds-p
+                                                           (first case) (second case) (third case)
+                                                           (fifth case))))))))))))
+    (is (< 3 open))
+    (is (< 10 dropping))))
+
+;;; The squeeze
+
 (test the-squeeze-is-where-the-radius-is-one
   (for-random-boxes (box 60 5)
     (let* ((plan (exact-plan box)) (best (supergrip:plan-best plan)) (need (needed plan))

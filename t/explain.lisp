@@ -112,7 +112,9 @@
                "Force is limited about Y: the grasp exerts 1.095 beyond the weight's load, the task needs 1; radius 1.095."
                "Velocity is limited about Y: the grasp moves with 0.5, the task needs 0.8; radius 0.625."
                "What is sure: together, and in any direction, the contacts bear 0.5752 times the forces and torques asked for."
-               "The grasp gives only 0.625 of the velocity asked for, which is enough if the needs only say what matters more."
+               "Exactly, they bear from 0.8724 to 0.8812 times as much; least where the box is pushed along -Y and turned about +Y."
+               "The contacts bear at most 0.8812 of the force asked for, which is enough if the needs only say what matters more."
+               "The grasp moves with only 0.625 of the velocity asked for about Y, which is enough if the needs only say what matters more."
                "Q, 0.860, only compares grasps for one task; it is not a probability of success."
                "Next is PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1), with a Q lower by 0.08965."
                "The choice would change if one of these were different:"
@@ -293,9 +295,9 @@
   (flet ((lines (force &optional (u 0.8d0))
            (printed (supergrip:explain-best
                      (plan-of '(12 2 2) u '(z2 x1) :force force)))))
-    (is (find "The grasp gives only 0.7475 of the force asked for, which is enough if the needs only say what matters more."
+    (is (find "The contacts bear at most 0.4616 of the force asked for, which is enough if the needs only say what matters more."
               (lines '(1 1 1 1 1 1) 0.4d0) :test #'string=))
-    (is (notany (lambda (line) (search "The grasp gives only " line)) (lines '(0.1 0 0 0 0 0))))))
+    (is (notany (lambda (line) (search "enough if" line)) (lines '(0.1 0 0 0 0 0))))))
 
 ;;; Traces, breaks, counts
 

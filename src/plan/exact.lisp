@@ -176,18 +176,20 @@ not become the best, and was not looked at more closely."
   (%candidate-bound candidate))
 
 (defmacro with-grip ((grip box candidate plan) &body body)
-  "Run BODY with GRIP, the contacts of CANDIDATE of PLAN, and BOX; NIL if it is not possible."
+  "Run BODY with GRIP, the contacts of CANDIDATE of PLAN, and BOX; NIL if it is not possible, or can't
+be computed with."
   (let ((workspace (gensym)))
     `(and (possible-p ,candidate)
           (with-replay (,workspace ,candidate ,plan)
             (let ((,grip (contacts-grip ,candidate ,workspace)) (,box (workspace-box ,workspace)))
-              ,@body)))))
+              (and (computable-p ,grip (gravity-on ,box))
+                   (progn ,@body)))))))
 
 (defun candidate-exact-radius (candidate plan &key (gap 0.01d0) (absolute 0.002d0))
   "Return what the contacts of CANDIDATE of PLAN can really do, by whatever index the plan was made:
 the exact force radius, an upper value, the certified lower one, or NIL, and the worst motion, a list
-of six, as EXACT-RADIUS does, which explains GAP and ABSOLUTE.  NIL if it is not possible, or the task
-needs no force."
+of six, as EXACT-RADIUS does, which explains GAP and ABSOLUTE.  NIL if it is not possible, the task
+needs no force, or places or weight are too large to compute with."
   (unless (every #'zerop (%box-force (plan-box (need-plan plan))))
     (with-grip (grip box candidate plan)
       (multiple-value-bind (upper lower worst)

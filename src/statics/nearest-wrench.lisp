@@ -304,10 +304,11 @@ can exert FROM alone.  WITNESS is then a motion that shows that it is the greate
 
 (defun grip-entry (grip direction &optional finder)
   "Return the greatest multiple of the wrench DIRECTION, a six, that GRIP can exert, a double: with
-a unit wrench along an axis, its exact WRENCH entry one way.  FINDER, from FIND-IN, may be used
-again for the same grip."
+a unit wrench along an axis, its exact WRENCH entry one way.  The second value is a motion in which
+the fingers can do no more than that.  FINDER, from FIND-IN, may be used again for the same grip."
   (declare (type grip grip) (type six direction))
   (without-float-traps
     (let ((f (or finder (find-in grip))) (way (make-six)))
       (into-frame (f-frame f) direction 0 way)
-      (farthest f way (make-six)))))
+      (let ((most (farthest f way (make-six))))
+        (values most (out-of-frame (f-frame f) (f-witness f)))))))

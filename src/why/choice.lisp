@@ -9,10 +9,11 @@ the effect of the offset, and the RADIUS."
 
 (defstruct (choice (:include explanation))
   "Why the best grasp of PLAN is the best.  SENTENCE says how it holds the box; FORCE and VELOCITY are
-LIMITs or NIL; SURE is CANDIDATE-SURE of the best; RUNNER-UP is the next candidate or NIL, MARGIN its
-distance in Q; CHANGES is a list of CHANGEs, the smallest first; STEPPED are the names of values that
-were only looked at in steps."
-  plan sentence force velocity sure runner-up margin (changes '()) (stepped '()))
+LIMITs or NIL; SURE is CANDIDATE-SURE of the best; TRUTH is the EXACT-LIMIT of its forces, whatever
+the index is, or NIL; RUNNER-UP is the next candidate or NIL, MARGIN its distance in Q; CHANGES is a
+list of CHANGEs, the smallest first; STEPPED are the names of values that were only looked at in
+steps."
+  plan sentence force velocity sure truth runner-up margin (changes '()) (stepped '()))
 
 ;;; How it holds the box
 
@@ -50,28 +51,32 @@ the proved one, or NIL.  DIRECTION is MOTION in words."
   motion direction upper certified)
 
 (defun exact-force-limit (candidate plan)
-  "Return the EXACT-LIMIT of u_w of CANDIDATE."
+  "Return the EXACT-LIMIT of the forces of CANDIDATE, or NIL if none is needed or it can't be computed."
   (multiple-value-bind (upper certified motion) (candidate-exact-radius candidate plan)
-    (make-exact-limit :axis (candidate-force-axis candidate) :needs 1d0
-                      :has (candidate-powers candidate motion plan)
-                      :radius (candidate-force-radius candidate)
-                      :motion motion :upper upper
-                      :direction (direction-text motion (box-force-needed (plan-box plan)))
-                      :certified certified)))
+    (and upper
+         (make-exact-limit :axis (candidate-force-axis candidate) :needs 1d0
+                           :has (candidate-powers candidate motion plan)
+                           :radius (candidate-force-radius candidate)
+                           :motion motion :upper upper
+                           :direction (direction-text motion (box-force-needed (plan-box plan)))
+                           :certified certified))))
 
-(defgeneric force-limit-by (index candidate plan)
-  (:documentation "Return the LIMIT of u_w of CANDIDATE of PLAN, which is by INDEX.")
-  (:method ((index (eql :exact)) candidate plan)
-    (exact-force-limit candidate plan))
-  (:method ((index (eql :paper)) candidate plan)
+(defgeneric force-limit-by (index truth candidate plan)
+  (:documentation "Return the LIMIT of u_w of CANDIDATE of PLAN, which is by INDEX; TRUTH is its
+EXACT-LIMIT.")
+  (:method ((index (eql :exact)) truth candidate plan)
+    (declare (ignore candidate plan))
+    truth)
+  (:method ((index (eql :paper)) truth candidate plan)
+    (declare (ignore truth))
     (with-replay (workspace candidate plan)
       (limit-at (%candidate-force-limit candidate) (workspace-spare workspace)
                 (workspace-force-needs workspace) (candidate-force-radius candidate)))))
 
-(defun force-limit (candidate plan)
-  "Return the LIMIT of u_w of CANDIDATE, or NIL if no force is needed."
+(defun force-limit (truth candidate plan)
+  "Return the LIMIT of u_w of CANDIDATE, whose EXACT-LIMIT is TRUTH, or NIL if no force is needed."
   (and (candidate-force-axis candidate)
-       (force-limit-by (plan-index plan) candidate plan)))
+       (force-limit-by (plan-index plan) truth candidate plan)))
 
 (defun velocity-limit (candidate plan)
   "Return the LIMIT of u_t of CANDIDATE, or NIL if no velocity is needed."
@@ -112,14 +117,16 @@ the proved one, or NIL.  DIRECTION is MOTION in words."
   "Return the CHOICE on PLAN: why its best grasp is the best, and what would change the choice."
   (when (unfinished-p (need-plan plan))
     (refuse-argument "the run is not over, so there is no best grasp yet"))
-  (let ((best (plan-best plan))
-        (runner-up (second (plan-possible plan))))
+  (let* ((best (plan-best plan))
+         (truth (and best (exact-force-limit best plan)))
+         (runner-up (second (plan-possible plan))))
     (multiple-value-bind (changes stepped) (choice-changes-of plan)
       (make-choice :plan plan
                    :sentence (if best
                                  (grasp-sentence best)
                                  (format nil "The box can't be grasped: ~a" (plan-reason plan)))
-                   :force (and best (force-limit best plan))
+                   :force (and best (force-limit truth best plan))
+                   :truth truth
                    :velocity (and best (velocity-limit best plan))
                    :sure (and best (candidate-sure best plan))
                    :runner-up (and best runner-up)
@@ -138,7 +145,9 @@ choice to change."
   (format stream "~a.~%" (choice-sentence answer))
   (write-force-limit (choice-force answer) stream)
   (write-limit "Velocity" "moves with" nil (choice-velocity answer) stream)
-  (write-sure (choice-sure answer) stream)
+  (write-sure (choice-sure answer) (choice-truth answer) stream)
+  (unless (eq (choice-truth answer) (choice-force answer))
+    (write-truth (choice-truth answer) stream))
   (write-meaning answer stream)
   (when (choice-runner-up answer)
     (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, but tried later~;a Q lower by ~@[at ~
@@ -177,20 +186,37 @@ choice to change."
       (format stream "~a is limited ~a: the grasp ~a ~a~@[ ~a~], the task needs ~a; radius ~a.~%" kind
               (limit-axis limit) verb has beyond needs radius))))
 
-(defun write-sure (sure stream)
-  "Write what SURE, a sure radius, is, if it is one."
-  (when sure
-    (format stream "What is sure: together, and in any direction, the contacts bear ~a times the ~
-                    forces and torques asked for.~%" (number-text sure))))
+(defun write-sure (sure truth stream)
+  "Write what SURE, a sure radius, is, if it is one; TRUTH is the EXACT-LIMIT, or NIL."
+  (cond ((null sure))
+        ((and truth (> sure (* (+ 1 +tie+) (exact-limit-upper truth))))
+         (format stream "By WRENCH ~a times the forces and torques asked for would be sure: more than ~
+                         the contacts can exert.~%" (number-text sure)))
+        (t (format stream "What is sure: together, and in any direction, the contacts bear ~a times the ~
+                           forces and torques asked for.~%" (number-text sure)))))
+
+(defun write-truth (truth stream)
+  "Write what TRUTH, an EXACT-LIMIT, says of the contacts, if there is one."
+  (when truth
+    (destructuring-bind (lower upper one)
+        (number-texts (or (exact-limit-certified truth) 0) (exact-limit-upper truth) 1)
+      (declare (ignore one))
+      (format stream "Exactly, they bear ~:[at most ~*~;from ~a to ~]~a times as much; least where the ~
+                      box is ~a.~%"
+              (exact-limit-certified truth) lower upper (exact-limit-direction truth)))))
+
+(defun below-one-p (number) (< number (- 1 +tie+)))
 
 (defun write-meaning (answer stream)
   "Write what a radius below 1, and Q, mean."
-  (loop for limit in (list (choice-force answer) (choice-velocity answer))
-        for kind in '("force" "velocity")
-        when (and limit (< (limit-radius limit) (- 1 +tie+)))
-          do (format stream "The grasp gives only ~a of the ~a asked for, which is enough if the needs ~
-                             only say what matters more.~%"
-                     (first (number-texts (limit-radius limit) 1)) kind))
+  (let ((truth (choice-truth answer)) (velocity (choice-velocity answer))
+        (meaning "which is enough if the needs only say what matters more"))
+    (when (and truth (below-one-p (exact-limit-upper truth)))
+      (format stream "The contacts bear at most ~a of the force asked for, ~a.~%"
+              (first (number-texts (exact-limit-upper truth) 1)) meaning))
+    (when (and velocity (below-one-p (limit-radius velocity)))
+      (format stream "The grasp moves with only ~a of the velocity asked for ~a, ~a.~%"
+              (first (number-texts (limit-radius velocity) 1)) (limit-axis velocity) meaning)))
   (let ((best (plan-best (choice-plan answer))))
     (when best
       (format stream "Q, ~a, only compares grasps for one task; it is not a probability of success.~%"

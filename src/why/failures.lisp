@@ -120,23 +120,21 @@ nothing does, or if it is no less than LEAST, unless that is NIL.  CLOSED-AT as 
     (if needed (- 1 (/ u needed)) 1)))
 
 (defun held-share (candidate workspace)
-  "Return which part of the weight, 0 to 1, the contacts of CANDIDATE hold."
-  (let* ((weight (%box-weight (workspace-box workspace)))
-         (up (make-six)))
-    (setf (aref up 2) weight)
-    (min 1d0 (grip-entry (contacts-grip candidate workspace) up))))
+  "Return which part of the weight, 0 to 1, the contacts of CANDIDATE hold, and a motion in which they
+can do no more."
+  (let ((gravity (gravity-on (workspace-box workspace))))
+    (multiple-value-bind (share witness)
+        (grip-entry (contacts-grip candidate workspace) (map 'six #'- gravity))
+      (values (min 1d0 share) witness))))
 
 (defun describe-drop (candidate workspace)
   "Return in words that the contacts of CANDIDATE can't hold the weight, and how the box gives way."
-  (let ((weight (%box-weight (workspace-box workspace)))
-        (share (held-share candidate workspace)))
-    (multiple-value-bind (holds witness)
-        (grip-holds-p (contacts-grip candidate workspace) (gravity-on (workspace-box workspace)))
-      (declare (ignore holds))
+  (let ((weight (%box-weight (workspace-box workspace))))
+    (multiple-value-bind (share witness) (held-share candidate workspace)
       (format nil "it can't hold the weight: the load is ~a, the contacts bear ~:[no weight~;~:*~a~] ~
-                   in this direction~@[; the box would give way, ~a~]"
+                   in this direction; the box would give way, ~a"
               (number-text weight) (and (plusp share) (number-text (* share weight)))
-              (and witness (motion-text (map 'vector #'- witness) "moving" "turning"))))))
+              (motion-text (map 'vector #'- witness) "moving" "turning")))))
 
 (defun finger-shortfall (candidate workspace)
   "Return by how much a finger of CANDIDATE is beyond an edge, relative; 1 if a form has no value."
