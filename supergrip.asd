@@ -18,6 +18,7 @@
                              (:file "rotations")
                              (:file "box")
                              (:file "box-keys")
+                             (:file "pose")
                              (:file "read-box")
                              (:file "operators")
                              (:file "read-forms")

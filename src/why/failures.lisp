@@ -121,10 +121,8 @@ nothing does, or if it is no less than LEAST, unless that is NIL.  CLOSED-AT as 
 
 (defun held-share (candidate workspace)
   "Return which part of the weight, 0 to 1, the contacts of CANDIDATE hold."
-  (let* ((weight (%box-weight (workspace-box workspace)))
-         (up (make-six)))
-    (setf (aref up 2) weight)
-    (min 1d0 (grip-entry (contacts-grip candidate workspace) up))))
+  (min 1d0 (grip-entry (contacts-grip candidate workspace)
+                       (map 'six #'- (gravity-on (workspace-box workspace))))))
 
 (defun describe-drop (candidate workspace)
   "Return in words that the contacts of CANDIDATE can't hold the weight, and how the box gives way."
