@@ -58,7 +58,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    ;; boxes
    #:parse-box #:box-name #:box-size #:box-weight #:box-friction #:box-soft-friction
    #:box-constrained #:box-force-needed #:box-velocity-needed #:box-value #:define-box-key #:box-facts
-   #:box-pose #:box-centre #:box-down
+   #:box-pose #:box-centre #:box-down #:box-gravity
    ;; knowledge
    #:*knowledge* #:load-knowledge #:knowledge #:knowledge-rules #:knowledge-grasps
    #:declared-inputs #:knowledge-gripper #:knowledge-warnings #:knowledge-rulebase #:grasp-name #:grasp-form

@@ -90,6 +90,11 @@ would tell apart what is the same.")
          (torque (cross-product (coerce (%box-mass-centre box) 'list) force)))
     (map 'six (lambda (number) (+ 0d0 number)) (append force torque))))
 
+(defun box-gravity (box)
+  "Return the wrench of the weight of BOX about the box centre, a list of six: a force along X Y Z, a
+torque about X Y Z, in finger forces and finger force x cm.  It is what EXACT-RADIUS and HOLDS-P take."
+  (coerce (gravity-on box) 'list))
+
 (defun box-pose (box)
   "Return the pose of BOX, or NIL: a list of the box centre in the world, in cm, and the unit quaternion
 (X Y Z W) that turns the box frame there."

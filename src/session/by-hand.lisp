@@ -70,7 +70,8 @@ Source: the paper, Low-level System."
          (grasp (need-grasp name (check-knowledge-argument knowledge)))
          (set (suggested-set suggestion))
          (stream (output-stream stream))
-         (plan (try-without-rules (put-try grasp set (tried-before box knowledge) index)
+         (plan (try-without-rules (put-try grasp set (tried-before box knowledge) box
+                                           index)
                                   box :knowledge knowledge :gamma gamma :index index))
          (tried (remove-if-not (lambda (candidate)
                                  (logbitp (matching-index (%candidate-matching candidate)) set))
