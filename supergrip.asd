@@ -212,6 +212,7 @@
                (:file "plan")
                (:file "errors")
                (:file "rotations")
+               (:file "pose")
                (:file "preliminary-assertions")
                (:file "box-facts")
                (:file "try-steps")

@@ -7,11 +7,12 @@
 
 (defstruct (pose (:constructor make-pose (position orientation)))
   "The frame of a box in the world: POSITION, that of the box centre, a list of three, in cm;
-ORIENTATION, a list of four, the unit quaternion (see rotations.lisp) that turns it there."
+ORIENTATION, a list of four, the quaternion (see rotations.lisp) that turns it there, of length 1 as
+nearly as it was given."
   (position nil :type list :read-only t) (orientation nil :type list :read-only t))
 
 (define-box-key :pose :pose
-  "where the box centre is in the world, in cm, and how the box is turned there, a unit quaternion x y z w"
+  "the place of the box centre in the world, x y z in cm, and a unit quaternion x y z w, which turns the box there"
   ((40 0 12.5d0) (0 0 0 1))
   :optional t)
 (define-box-key :centre :place "three numbers in cm, the centre of mass from the box centre" (0 0 -1.5d0)
@@ -39,7 +40,7 @@ ORIENTATION, a list of four, the unit quaternion (see rotations.lisp) that turns
   (flet ((text (numbers)
            (value-text *notation* (mapcar #'plain-real numbers))))
     (cond ((unit-quaternion-p orientation)
-           (make-pose position (unit-length orientation)))
+           (make-pose position orientation))
           ((every #'zerop orientation)
            (complain (value-spot row 1) "~a is no rotation; a box that stands upright has ~a"
                      (text orientation) (text '(0d0 0d0 0d0 1d0))))
@@ -71,11 +72,15 @@ would tell apart what is the same.")
 (defparameter +upright+ (coerce '(0d0 0d0 -1d0) 'three) "Where down is for a box without a pose.")
 (defparameter +box-centre+ (coerce '(0d0 0d0 0d0) 'three))
 
+(defun pose-matrix (pose)
+  "Return the matrix of the rotation of POSE: its columns are the axes of the box in the world."
+  (quaternion-matrix (unit-length (pose-orientation pose))))
+
 (defun down-of (pose)
   "Return the unit vector down in the frame of a box of POSE, which may be NIL."
   (if pose
       (map 'three (lambda (column) (+ 0d0 (rounded-place (- (third column)) +down-digits+)))
-           (quaternion-matrix (pose-orientation pose)))
+           (pose-matrix pose))
       +upright+))
 
 (defun gravity-slots (others)
@@ -96,8 +101,8 @@ torque about X Y Z, in finger forces and finger force x cm.  It is what EXACT-RA
   (coerce (gravity-on box) 'list))
 
 (defun box-pose (box)
-  "Return the pose of BOX, or NIL: a list of the box centre in the world, in cm, and the unit quaternion
-(X Y Z W) that turns the box frame there."
+  "Return the pose of BOX, as it was given, or NIL: a list of the box centre in the world, in cm, and the
+quaternion (X Y Z W) that turns the box frame there."
   (shown-value :pose (getf (%box-others box) :pose)))
 
 (defmethod shown-value ((type (eql :pose)) pose)
