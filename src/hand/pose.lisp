@@ -1,7 +1,7 @@
 ;;;; pose.lisp -- how a box lies: its frame in the world, its centre of mass, and gravity.
 ;;;;
-;;;; The world's Z points up.  Without a POSE the box frame is turned as the world is, so Z2 is the bottom.
-;;;; Without a CENTRE the centre of mass is the box centre.
+;;;; The world's Z points up.  Without a POSE the box frame is turned as the world is, so Z2 is the
+;;;; bottom.  Without a CENTRE the centre of mass is the box centre.
 
 (in-package :supergrip)
 
@@ -12,10 +12,12 @@ nearly as it was given."
   (position nil :type list :read-only t) (orientation nil :type list :read-only t))
 
 (define-box-key :pose :pose
-  "the place of the box centre in the world, x y z in cm, and a unit quaternion x y z w, which turns the box there"
+  #.(format nil "the place of the box centre in the world, x y z in cm, and a unit quaternion ~
+                 x y z w, which turns the box there")
   ((40 0 12.5d0) (0 0 0 1))
   :optional t)
-(define-box-key :centre :place "three numbers in cm, the centre of mass from the box centre" (0 0 -1.5d0)
+(define-box-key :centre :place "three numbers in cm, the centre of mass from the box centre"
+  (0 0 -1.5d0)
   :optional t)
 
 ;;; Reading
@@ -36,7 +38,7 @@ nearly as it was given."
   (coerce (/ (round (* (rational number) (expt 10 digits))) (expt 10 digits)) 'double-float))
 
 (defun checked-pose (row position orientation)
-  "Return the pose of POSITION and ORIENTATION, lists of doubles, that the key ROW gives; or complain."
+  "Return the pose of POSITION and ORIENTATION, lists of doubles that the key ROW gives, or complain."
   (flet ((text (numbers)
            (value-text *notation* (mapcar #'plain-real numbers))))
     (cond ((unit-quaternion-p orientation)
@@ -45,8 +47,8 @@ nearly as it was given."
            (complain (value-spot row 1) "~a is no rotation; a box that stands upright has ~a"
                      (text orientation) (text '(0d0 0d0 0d0 1d0))))
           (t
-           (complain (value-spot row 1) "~a is no unit quaternion: its length is ~a, not 1; the same ~
-                                         rotation has ~a"
+           (complain (value-spot row 1) "~a is no unit quaternion: its length is ~a, not 1; the ~
+                                         same rotation has ~a"
                      (text orientation) (first (number-texts (vector-length orientation) 1))
                      (text (loop for number in (unit-length orientation)
                                  collect (rounded-place number 9))))))))
@@ -55,19 +57,20 @@ nearly as it was given."
   "Return in words that the centre of mass in VALUES, a plist, lies outside the box; or NIL."
   (let* ((centre (getf values :centre)) (size (getf values :size))
          (axis (and centre size
-                    (position-if #'plusp (map 'list (lambda (c s) (- (abs c) (/ s 2))) centre size)))))
+                    (position-if #'plusp (map 'list (lambda (c s) (- (abs c) (/ s 2)))
+                                              centre size)))))
     (when axis
       (let ((at (aref centre axis)))
-        (format nil "the centre of mass lies outside the box: ~a it is ~a from the box centre, and the ~
-                     box ends at ~a"
+        (format nil "the centre of mass lies outside the box: ~a it is ~a from the box centre, ~
+                     and the box ends at ~a"
                 (axis-name axis) (exact-number-text at)
                 (exact-number-text (* (signum at) 0.5d0 (aref size axis))))))))
 
 ;;; Gravity
 
 (defconstant +down-digits+ 12
-  "To how many places the direction of gravity is rounded: the rest is the rounding of quaternions, and
-would tell apart what is the same.")
+  "To how many places the direction of gravity is rounded: the rest is the rounding of quaternions,
+and would tell apart what is the same.")
 
 (defparameter +upright+ (coerce '(0d0 0d0 -1d0) 'three) "Where down is for a box without a pose.")
 (defparameter +box-centre+ (coerce '(0d0 0d0 0d0) 'three))
@@ -84,7 +87,8 @@ would tell apart what is the same.")
       +upright+))
 
 (defun gravity-slots (others)
-  "Return the slots of a box that say what gravity does to it, a plist; OTHERS has its pose and centre."
+  "Return the slots of a box that say what gravity does to it, a plist; OTHERS has its pose and
+centre."
   (let ((down (down-of (getf others :pose))) (centre (getf others :centre +box-centre+)))
     (list :down down :mass-centre centre
           :plain (and (equalp down +upright+) (equalp centre +box-centre+)))))
@@ -96,13 +100,13 @@ would tell apart what is the same.")
     (map 'six (lambda (number) (+ 0d0 number)) (append force torque))))
 
 (defun box-gravity (box)
-  "Return the wrench of the weight of BOX about the box centre, a list of six: a force along X Y Z, a
-torque about X Y Z, in finger forces and finger force x cm.  It is what EXACT-RADIUS and HOLDS-P take."
+  "Return the wrench of the weight of BOX about the box centre, a list of six: a force along X Y Z,
+a torque about X Y Z, in finger forces and finger force x cm.  EXACT-RADIUS and HOLDS-P take it."
   (coerce (gravity-on box) 'list))
 
 (defun box-pose (box)
-  "Return the pose of BOX, as it was given, or NIL: a list of the box centre in the world, in cm, and the
-quaternion (X Y Z W) that turns the box frame there."
+  "Return the pose of BOX, as it was given, or NIL: a list of the box centre in the world, in cm, and
+the quaternion (X Y Z W) that turns the box frame there."
   (shown-value :pose (getf (%box-others box) :pose)))
 
 (defmethod shown-value ((type (eql :pose)) pose)
