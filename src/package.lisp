@@ -71,7 +71,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate #:candidate-grasp #:candidate-matching #:candidate-outcome #:candidate-quality
    #:candidate-force-radius #:candidate-velocity-radius
    #:candidate-force-axis #:candidate-velocity-axis
-   #:candidate-offset #:candidate-contacts #:candidate-approach #:candidate-hand
+   #:candidate-offset #:candidate-contacts #:candidate-approach #:candidate-hand #:candidate-world
    #:candidate-wrench #:candidate-twist #:candidate-sure #:candidate-failure
    #:candidate-palm #:candidate-load #:candidate-force-need #:candidate-velocity-need
    #:candidate-bound-p #:candidate-exact-radius #:candidate-squeeze #:candidate-friction-margin

@@ -358,7 +358,7 @@ of it."
           do (is (equal (list (format nil "BOX: ~a" text)) (refused clause))))))
 
 (test centres-that-are-none-are-refused
-  (let ((takes "CENTRE takes three numbers in cm, the centre of mass from the box centre: (CENTRE 0 0 -1.5)"))
+  (let ((takes "CENTRE takes three numbers in cm, the centre of mass from the box centre: (CENTRE 0 0 -0.5)"))
     (loop for (clause text) in
           `(((:centre 0 1 1.5d0)
              "the centre of mass lies outside the box: along Z it is 1.5 from the box centre, and the box ends at 1")
@@ -391,6 +391,46 @@ of it."
             ("\"centre\": [0, 0, 9]"
              "the centre of mass lies outside the box: along Z it is 9 from the box centre, and the box ends at 1")
             ("\"centre\": 3"
-             "\"centre\": 3 is not valid: \"centre\" takes three numbers in cm, the centre of mass from the box centre: \"centre\": [0, 0, -1.5]"))
+             "\"centre\": 3 is not valid: \"centre\" takes three numbers in cm, the centre of mass from the box centre: \"centre\": [0, 0, -0.5]"))
           do (is (equal (list (format nil "1: BOX: ~a" report))
                         (problem-texts (lambda () (json-laid text))))))))
+
+;;; The world
+
+(defun world-fault (box)
+  "Return what is wrong with where the hand of the best grasp of BOX, which has a pose, is in the world."
+  (let* ((plan (supergrip:plan box))
+         (record (supergrip::plan-record plan))
+         (hand (getf record :hand)) (world (getf record :world)))
+    (destructuring-bind (place orientation) (box-part box 'pose)
+      (flet ((world-place (vector) (mapcar #'+ place (supergrip-oracle::turned-by orientation vector)))
+             (back (frame vector)
+               (destructuring-bind (x y z w) (getf frame :orientation)
+                 (supergrip-oracle::turned-by (list (- x) (- y) (- z) w)
+                                              (mapcar #'- vector (getf frame :position))))))
+        (cond ((null (supergrip:plan-best plan))
+               (and (or hand world (eq record (getf record :world record))) "a hand without a grasp"))
+              ((not (equal world (supergrip:candidate-world (supergrip:plan-best plan) plan)))
+               "the candidate's")
+              ((not (eql (getf hand :opening) (getf world :opening))) "the opening")
+              ((minusp (fourth (getf world :orientation))) "the quaternion")
+              ((loop for contact in (getf record :contacts)
+                     for at = (getf contact :position)
+                       thereis (not (close-to (back hand at) (back world (world-place at)) 1d-8)))
+               "a contact as the hand sees it")
+              ((not (close-to (getf world :closing)
+                              (supergrip-oracle::turned-by (getf world :orientation) '(1d0 0d0 0d0))))
+               "the closing direction"))))))
+
+(test the-hand-in-the-world-is-the-hand-on-the-box
+  (is (null (first-fault #'world-fault (laid-boxes 300 56 :pose 100)))))
+
+(test only-a-box-with-a-pose-is-in-the-world
+  (let ((plan (pencil-plan)))
+    (is (eq :none (getf (supergrip::plan-record plan) :world :none)))
+    (is (null (supergrip:candidate-world (supergrip:plan-best plan) plan))))
+  (let ((keys (loop for (key) on (supergrip::plan-record
+                                  (supergrip:plan (box-laid '(:pose (0 0 0) (0 0 0 1)))) :all 2)
+                      by #'cddr
+                    collect key)))
+    (is (equal '(:hand :world :alternatives) (rest (member :sure keys))))))

@@ -17,7 +17,7 @@ nearly as it was given."
   ((40 0 12.5d0) (0 0 0 1))
   :optional t)
 (define-box-key :centre :place "three numbers in cm, the centre of mass from the box centre"
-  (0 0 -1.5d0)
+  (0 0 -0.5d0)
   :optional t)
 
 ;;; Reading
@@ -104,10 +104,14 @@ centre."
 a torque about X Y Z, in finger forces and finger force x cm.  EXACT-RADIUS and HOLDS-P take it."
   (coerce (gravity-on box) 'list))
 
+(defun %box-pose (box)
+  "Return the POSE of BOX, or NIL."
+  (getf (%box-others box) :pose))
+
 (defun box-pose (box)
   "Return the pose of BOX, as it was given, or NIL: a list of the box centre in the world, in cm, and
 the quaternion (X Y Z W) that turns the box frame there."
-  (shown-value :pose (getf (%box-others box) :pose)))
+  (shown-value :pose (%box-pose box)))
 
 (defmethod shown-value ((type (eql :pose)) pose)
   (and pose (list (copy-list (pose-position pose)) (copy-list (pose-orientation pose)))))
