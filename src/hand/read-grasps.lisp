@@ -312,7 +312,8 @@ coordinates that the turn changes are always 0."
         (declare (ignore nodes))
         (kept-centre-p kind body))
       (:cond (&rest clauses)
-        (loop for (nil value) in clauses always (kept-centre-p kind value))))))
+        (loop for (nil value) in clauses always (kept-centre-p kind value)))
+      (:computed () nil))))
 
 (defun same-matchings (used fingers turns)
   "Return, for each matching, the set of those of TURNS (see +TURNS+) of it that are the same grasp."
