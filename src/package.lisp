@@ -58,6 +58,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    ;; boxes
    #:parse-box #:box-name #:box-size #:box-weight #:box-friction #:box-soft-friction
    #:box-constrained #:box-force-needed #:box-velocity-needed #:box-value #:define-box-key #:box-facts
+   #:box-pose #:box-centre #:box-down #:box-gravity
    ;; knowledge
    #:*knowledge* #:load-knowledge #:knowledge #:knowledge-rules #:knowledge-grasps
    #:declared-inputs #:knowledge-gripper #:knowledge-warnings #:knowledge-rulebase #:grasp-name #:grasp-form
@@ -70,7 +71,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate #:candidate-grasp #:candidate-matching #:candidate-outcome #:candidate-quality
    #:candidate-force-radius #:candidate-velocity-radius
    #:candidate-force-axis #:candidate-velocity-axis
-   #:candidate-offset #:candidate-contacts #:candidate-approach #:candidate-hand
+   #:candidate-offset #:candidate-contacts #:candidate-approach #:candidate-hand #:candidate-world
    #:candidate-wrench #:candidate-twist #:candidate-sure #:candidate-failure
    #:candidate-palm #:candidate-load #:candidate-force-need #:candidate-velocity-need
    #:candidate-bound-p #:candidate-exact-radius #:candidate-squeeze #:candidate-friction-margin

@@ -57,16 +57,23 @@
         (list (+ x (* scale right))
               (- y (* scale (+ (* c (cos tip)) (* away (sin tip))))))))))
 
+(defun upward (position top)
+  "Return POSITION in the frame, right-handed, whose third axis is the normal of the face TOP."
+  (destructuring-bind (x y z) position
+    (cdr (assoc top `(("X1" ,y ,z ,x) ("X2" ,z ,y ,(- x)) ("Y1" ,z ,x ,y) ("Y2" ,x ,z ,(- y))
+                      ("Z1" ,x ,y ,z) ("Z2" ,y ,x ,(- z)))
+                :test #'string=))))
+
 (defun views-agree-p (views plan)
   "True if every contact in VIEWS is where PLAN has it."
   (let ((contacts (supergrip:candidate-contacts (supergrip:plan-best plan) plan)))
     (loop for (azimuth elevation top scale x y seen) in views
-          always (and (string= top "Z1")
-                      (loop for (finger u v) in seen
-                            for place = (seen-at (getf (nth (1- finger) contacts) :position)
-                                                 azimuth elevation scale x y)
-                            always (< (+ (abs (- u (first place))) (abs (- v (second place))))
-                                      0.05))))))
+          always (or (string= top "Z1") (supergrip:box-pose (supergrip:plan-box plan)))
+          always (loop for (finger u v) in seen
+                       for place = (seen-at (upward (getf (nth (1- finger) contacts) :position) top)
+                                            azimuth elevation scale x y)
+                       always (< (+ (abs (- u (first place))) (abs (- v (second place))))
+                                 0.05)))))
 
 (defun fingers-in (view)
   (length (seventh view)))

@@ -319,12 +319,12 @@ certified."
   (supergrip:sure-radius (supergrip:candidate-wrench candidate plan) (fourth case)
                          :gravity (fifth case) :offset (supergrip:candidate-offset candidate)))
 
-(defun random-candidate-cases (count state)
-  "Return COUNT lists of a case and its sure radius, of possible candidates on random boxes with
-random needs."
+(defun random-candidate-cases (count state &optional (make-box #'random-box))
+  "Return COUNT lists of a case and its sure radius, of possible candidates on random boxes, as MAKE-BOX
+makes them of STATE, with random needs."
   (let ((cases '()))
     (loop
-      (let ((plan (supergrip:plan (random-box state))))
+      (let ((plan (supergrip:plan (funcall make-box state))))
         (dolist (candidate (supergrip:plan-possible plan))
           (let ((need (random-need state)))
             (unless (every #'zerop need)

@@ -364,9 +364,38 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
 
 ;;;; ---------------------------------------------------------------- the box
 
-(defstruct (box (:constructor make-box (size weight u v constrained force velocity facts)))
-  "A box: three sizes in cm; its task, six needs each of force and of velocity; facts of its own."
-  size weight u v constrained force velocity facts)
+(defstruct (box (:constructor make-box (size weight u v constrained force velocity facts down
+                                             mass-centre)))
+  "A box: three sizes in cm; its task, six needs each of force and of velocity; facts of its own; the
+direction of gravity, a unit vector, and where it acts, from the box centre."
+  size weight u v constrained force velocity facts down mass-centre)
+
+(defun cross (a b)
+  "Return the vector product of A and B."
+  (loop for i below 3
+        for j = (mod (+ i 1) 3)
+        for k = (mod (+ i 2) 3)
+        collect (- (* (nth j a) (nth k b)) (* (nth k a) (nth j b)))))
+
+(defun turned-by (quaternion vector)
+  "Return VECTOR turned by QUATERNION, any but 0: q v q* / |q|^2."
+  (destructuring-bind (x y z w) quaternion
+    (let* ((axis (list x y z))
+           (twice (mapcar (lambda (c) (* 2 c)) (cross axis vector)))
+           (square (reduce #'+ (mapcar #'* quaternion quaternion))))
+      (mapcar (lambda (v side along) (+ v (/ (+ (* w side) along) square)))
+              vector twice (cross axis twice)))))
+
+(defun down-of (pose)
+  "Return where the world's -Z points in the frame of a box of POSE, (place quaternion) or NIL."
+  (if (null pose)
+      (list 0d0 0d0 -1d0)
+      (destructuring-bind (x y z w) (mapcar #'double (second pose))
+        (turned-by (list (- x) (- y) (- z) w) (list 0d0 0d0 -1d0)))))
+
+(defun plain-p (box)
+  "True if BOX stands on Z2 and its mass is at its centre."
+  (and (equal (box-down box) '(0d0 0d0 -1d0)) (every #'zerop (box-mass-centre box))))
 
 (defun parse-box (description)
   "Return the box of DESCRIPTION, an alist as in the paper."
@@ -379,7 +408,9 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
               (own (entry 'constrained))
               (mapcar #'double (first (entry 'force-needed)))
               (mapcar #'double (first (entry 'velocity-needed)))
-              (facts-in-order (own (entry 'facts))))))
+              (facts-in-order (own (entry 'facts)))
+              (down-of (entry 'pose))
+              (mapcar #'double (or (entry 'centre) '(0 0 0))))))
 
 (defun facts-in-order (facts)
   "Return FACTS, sentences, each list of faces and then the lists themselves in the order of *FACES*."
@@ -495,8 +526,9 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
 
 (defun gravity-load (box offset)
   "Return the six loads that the weight of BOX puts on a grasp at OFFSET."
-  (let ((weight (list 0d0 0d0 (box-weight box))))
-    (append weight (moments offset weight))))
+  (let ((force (mapcar (lambda (part) (* (box-weight box) part)) (box-down box)))
+        (arm (mapcar #'- (box-mass-centre box) offset)))
+    (mapcar #'abs (append force (cross arm force)))))
 
 (defun radius (capacities needs)
   "Return the least ratio of CAPACITIES to NEEDS where there is a need, NIL if there is none."
@@ -561,11 +593,23 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
        (notany (lambda (label) (member (matched-face label matching) (box-constrained box)))
                (grasp-used grasp))))
 
-(defun tried-p (matching grasp tried)
-  "True if MATCHING, or one that is the same grip by a symmetry of GRASP, is in TRIED."
+(defun same-centre-p (grasp box matching other)
+  "True if the centre of GRASP on BOX is the same place in MATCHING and in OTHER."
+  (flet ((centre (matching)
+           (let ((centre (grasp-centre (computed :offset (forms-for grasp matching box)))))
+             (and centre (vector-to-box centre matching)))))
+    (let ((one (centre matching)) (two (centre other)))
+      (or (and (null one) (null two))
+          (and one two (every (lambda (a b) (< (abs (- a b)) 1d-9)) one two))))))
+
+(defun tried-p (matching grasp box tried)
+  "True if MATCHING, or one that is the same grip of BOX by a symmetry of GRASP, is in TRIED."
   (or (member matching tried :test #'equal)
       (loop for positions in (grasp-symmetries grasp)
-              thereis (member (turn matching positions) tried :test #'equal))))
+            for other = (turn matching positions)
+              thereis (and (member other tried :test #'equal)
+                           ;; To which side the centre lies matters only where gravity acts askew.
+                           (or (plain-p box) (same-centre-p grasp box matching other))))))
 
 (defun oracle-try (grasp-name box knowledge &key (gamma 0.5d0) (skip-equivalents t))
   "Return the candidates of one grasp on BOX, an alist, under all valid matchings."
@@ -574,7 +618,7 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
         with tried = '()
         for matching in *matchings*
         when (and (valid-p matching grasp nil box)
-                  (not (and skip-equivalents (tried-p matching grasp tried))))
+                  (not (and skip-equivalents (tried-p matching grasp box tried))))
           collect (try-matching grasp matching box gamma)
           and do (push matching tried)))
 
@@ -604,7 +648,7 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
              (loop with grasp = (find-grasp name knowledge)
                    for matching in *matchings*
                    when (and (valid-p matching grasp suggestion box)
-                             (not (tried-p matching grasp (gethash grasp tried))))
+                             (not (tried-p matching grasp box (gethash grasp tried))))
                      do (push matching (gethash grasp tried))
                         (push (try-matching grasp matching box gamma) candidates))))
       (destructuring-bind (&key end reason log)

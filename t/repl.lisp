@@ -107,7 +107,7 @@
             ("() is not the name of a file: that is a string, or a path without wild cards"
              supergrip:load-knowledge :grasps ())
             ("3 is not a break: a break is the name of a rule or a grasp, or a fact, such as (PARALLEL (Y2 Y1))" supergrip:unbreak 3)
-            ("COLOUR is not a key of a box: keys are SIZE, WEIGHT, U, V, CONSTRAINED, FORCE-NEEDED, VELOCITY-NEEDED, NAME, FACTS"
+            ("COLOUR is not a key of a box: keys are SIZE, WEIGHT, U, V, CONSTRAINED, FORCE-NEEDED, VELOCITY-NEEDED, NAME, FACTS, POSE, CENTRE"
              supergrip:box-value ,(supergrip:plan-box plan) :colour))
           do (is (equal text (error-text (apply function arguments)))))
     (is (search "is not the name of a file" (error-text (supergrip:reload-knowledge :rules #p"*.lisp"))))

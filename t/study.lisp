@@ -6,6 +6,7 @@
 ;;;; sbcl --script t/study.lisp sure                         how tight the sure radius is
 ;;;; sbcl --script t/study.lisp choice                      exact choices, candidate by candidate
 ;;;; sbcl --script t/study.lisp lifting                     what sound lifting loses
+;;;; sbcl --script t/study.lisp lying                       what changes when the frame of a box is turned
 ;;;; sbcl --script t/study.lisp radii | python3 t/radii.py   exact radii by other means
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
@@ -252,8 +253,9 @@ tries something new: again with all rules up to it, until there is none."
 ;;; What contacts can really do
 
 (defun print-radii (count state)
-  "Print COUNT cases for radii.py, a third of them coupled."
-  (loop for (case) in (random-candidate-cases count state)
+  "Print COUNT cases for radii.py, a third of them coupled, most of boxes that lie askew."
+  (loop for (case) in (random-candidate-cases count state
+                                              (lambda (state) (laid (random-box state) state)))
         for number from 0
         for coupled = (zerop (mod number 3))
         do (destructuring-bind (contacts u v need gravity) case
@@ -341,12 +343,67 @@ one."
               (sum (lambda (plan) (length (dropped plan))) plans)
               (sum (lambda (plan) (length (dropped plan))) exact)))))
 
+;;; How boxes lie
+
+(defun held-places (plan back)
+  "Return the best grasp of PLAN, and where its contacts are after BACK, a function of a place, in an
+order of their own; or NIL."
+  (let ((best (supergrip:plan-best plan)))
+    (and best
+         (list (supergrip:plan-grasp plan)
+               (sort (loop for contact in (supergrip:candidate-contacts best plan)
+                           collect (funcall back (getf contact :position)))
+                     #'< :key (lambda (place) (reduce #'+ (mapcar #'* '(1d0 1.37d0 1.91d0) place))))))))
+
+(defun turned-back-by (matching)
+  "Return a function of a place after the turn that MATCHING is: the place before it."
+  (lambda (place)
+    (loop for axis across (supergrip::matching-axes matching)
+          for sign across (supergrip::matching-signs matching)
+          collect (* sign (nth axis place)))))
+
+(defun lying-changes (box)
+  "Return, for each of the 24 turns of the frame of BOX, the change of the best Q, and :MOVED if another
+grasp, or one elsewhere on the box, is then the best."
+  (let* ((plan (supergrip:plan box)) (quality (supergrip:plan-quality plan))
+         (held (held-places plan #'identity)))
+    (loop for matching in *rotations*
+          for turned = (supergrip:plan (turn-laid box matching))
+          for other = (supergrip:plan-quality turned)
+          collect (list (cond ((and quality other) (abs (- quality other)))
+                              ((or quality other) 1d0)
+                              (t 0d0))
+                        (unless (same-places-p held (held-places turned (turned-back-by matching)))
+                          :moved)))))
+
+(defun same-places-p (a b)
+  (and (equal (first a) (first b)) (close-to (second a) (second b) 1d-6)))
+
+(defun print-lying (count)
+  "Print what the 24 turns of the frames of COUNT boxes that lie somehow change."
+  (let ((boxes (laid-boxes count 1)) (moved 0) (greatest 0d0) (askew 0) (grasps 0) (upright 0))
+    (dolist (box boxes)
+      (let ((changes (lying-changes box)) (plan (supergrip:plan box)))
+        (setf greatest (reduce #'max (mapcar #'first changes) :initial-value greatest))
+        (when (find :moved changes :key #'second) (incf moved))
+        (when (supergrip:plan-best plan) (incf grasps))
+        (let ((other (supergrip:plan (without box 'pose 'centre))))
+          (when (supergrip:plan-best other) (incf upright))
+          (unless (equal (list (supergrip:plan-grasp plan) (supergrip:plan-matching plan))
+                         (list (supergrip:plan-grasp other) (supergrip:plan-matching other)))
+            (incf askew)))))
+    (format t "~d boxes that lie somehow, 24 turns of each frame: Q changes by ~,1e at most; in ~d boxes ~
+               the best grasp is another one of equal Q in some turn~%~
+               ~d have a grasp, ~d if POSE and CENTRE are left out; ~d answers differ~%"
+            count greatest moved grasps upright askew)))
+
 (destructuring-bind (&optional what . files) (rest sb-ext:*posix-argv*)
   (cond ((equal what "cases") (print-cases (sb-ext:seed-random-state 1)))
         ((equal what "sure") (print-sure 10000 (sb-ext:seed-random-state 1)))
         ((equal what "choice") (print-choices 500))
         ((equal what "lifting") (loop for (kind maker) in (subseq *kinds* 0 2)
                                          do (print-lifting kind (boxes-of maker 2000 1))))
+        ((equal what "lying") (print-lying 1000))
         ((equal what "radii") (print-radii 300 (sb-ext:seed-random-state 1)))
         ((equal what "compare") (apply #'print-comparison files))
         (t

@@ -630,7 +630,7 @@ what the functions of statics are asked with."
     (list (loop for contact in (supergrip:candidate-contacts candidate plan)
                 collect (list (getf contact :position) (getf contact :normal)))
           (supergrip:box-friction box) (supergrip:box-soft-friction box) need
-          (list 0 0 (- (supergrip:box-weight box)) 0 0 0))))
+          (supergrip:box-gravity box))))
 
 (defun exact-radius-of (case &rest keys)
   "Return what EXACT-RADIUS says of CASE, KEYS being its keys."

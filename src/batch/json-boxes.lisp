@@ -17,6 +17,7 @@ an array and VALUE is none."
   (let ((row (key-named key))
         (elements (and (json-array-p value) (json-array-elements value))))
     (cond ((null row) (list value))
+          ((eq (box-key-type row) :pose) (json-pose value))
           ((not (json-array-p value)) (if (spread-p row) value (list value)))
           ((eq (box-key-type row) :faces) (mapcar #'json-face elements))
           ((eq (box-key-type row) :facts) (mapcar #'json-list elements))
@@ -27,6 +28,17 @@ an array and VALUE is none."
 (defun json-face (element)
   "Return ELEMENT, of an array of faces, as the paper has it: a name."
   (if (stringp element) (canonical-name (string-upcase element)) element))
+
+(defparameter +pose-members+ '("position" "orientation") "The members of a pose in JSON.")
+
+(defun json-pose (value)
+  "Return VALUE, of a pose, as the paper would have it: two lists.  What is no pose stays as it is."
+  (let ((members (and (json-object-p value) (json-object-members value))))
+    (if (and (= (length members) 2)
+             (loop for name in +pose-members+ always (assoc name members :test #'equal)))
+        (loop for name in +pose-members+
+              collect (json-list (cdr (assoc name members :test #'equal))))
+        (list value))))
 
 (defun json-list (value)
   "Return VALUE with lists for arrays."
@@ -44,6 +56,8 @@ an array and VALUE is none."
   (format nil "~a: ~a" (key-name notation row)
           (value-text notation (cond ((not (listp values)) values)
                                      ((spread-p row) (make-json-array values))
+                                     ((and (eq (box-key-type row) :pose) (rest values))
+                                      (make-json-object (mapcar #'cons +pose-members+ values)))
                                      ((listp (first values)) (make-json-array (first values)))
                                      (t (first values))))))
 
@@ -57,6 +71,8 @@ an array and VALUE is none."
   ;; Keys and values of an object take turns.
   (cond ((null numbers) (list (* 2 clause)))
         ((spread-p row) (cons (1+ (* 2 clause)) numbers))
+        ;; The members of a pose may stand in any order.
+        ((eq (box-key-type row) :pose) (list (1+ (* 2 clause))))
         (t (cons (1+ (* 2 clause)) (rest numbers)))))
 
 (defun write-json-value (value stream depth)

@@ -21,6 +21,8 @@
 In exact mode also, of the best grasp (see src/plan/exact.lisp):
 :BETA  (LOWER UPPER), the exact radius, LOWER certified or NIL; NIL where the task needs no force.
 :SQUEEZE :FRICTION-MARGIN  CANDIDATE-SQUEEZE, CANDIDATE-FRICTION-MARGIN.
+If the box has a POSE:
+:WORLD  where the hand of the best grasp is in the world, as :HAND: see CANDIDATE-WORLD.
 If ALL, a number, is given:
 :ALTERNATIVES  at most ALL of the possible grasps, the best first: see ALTERNATIVES."
   (let* ((best (plan-best plan))
@@ -45,9 +47,15 @@ tells of the best, from :GRASP to :CONTACTS and from :SURE on."
 
 (defun further-part (best contacts plan)
   "Return the part of a record that tells more of the grasp BEST, with CONTACTS, of PLAN, or of none."
-  (list* :sure (and best (candidate-sure best plan))
-         :hand (and best (contacts-hand best contacts (plan-box plan)))
-         (index-part (plan-index plan) best plan)))
+  (let ((hand (and best (contacts-hand best contacts (plan-box plan)))))
+    (list* :sure (and best (candidate-sure best plan))
+           :hand hand
+           (append (index-part (plan-index plan) best plan)
+                   (world-part hand (%box-pose (plan-box plan)))))))
+
+(defun world-part (hand pose)
+  "Return the part of a record that tells where HAND, or none, is in the world, if its box has a POSE."
+  (and pose (list :world (and hand (hand-in-world hand pose)))))
 
 (defgeneric index-part (index best plan)
   (:documentation "Return the part of a record that only INDEX, a keyword, has; of the grasp BEST of

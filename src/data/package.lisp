@@ -34,6 +34,6 @@ in them.")
    #:skip-to-record #:skip-record #:make-source #:part-place #:+mark+ #:+separator+
    #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*
    ;; JSON
-   #:read-json #:skip-to-json #:take-character #:skip-json #:json-array #:json-array-p #:make-json-array #:json-array-elements
+   #:read-json #:skip-to-json #:take-character #:skip-json #:json-array #:json-array-p #:make-json-array #:json-array-elements #:make-json-object
    #:json-object #:json-object-p #:json-object-members #:json-literal #:json-literal-p
    #:json-literal-text))

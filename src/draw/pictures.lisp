@@ -27,7 +27,7 @@ seen, in gaps, 1 at most."
                          (subject-contacts subject)))
      (spread-score subject camera)))
 
-(defun best-camera (subjects &optional (elevation 28) (top 1))
+(defun best-camera (subjects &optional (elevation 28) (top (upper-face (first subjects))))
   "Return the camera that sees the contacts of SUBJECTS best, the face TOP being above, and how
 well it does."
   (let ((best nil) (most nil))
@@ -49,7 +49,25 @@ well it does."
 
 (defun weight-text (box)
   "Return the weight of BOX as its arrow is labelled, or NIL if it has none."
-  (and (plusp (box-weight box)) (format nil "weight ~a" (quantity (box-weight box)))))
+  (and (plusp (box-weight box))
+       (format nil "weight ~a~:[, at the centre of mass~;~]" (quantity (box-weight box))
+               (every #'zerop (box-centre box)))))
+
+(defun down-text (box)
+  "Return where down is for BOX, as \"-Y\" or as a unit vector."
+  (let ((down (box-down box)))
+    (if (find 1 down :key #'abs)
+        (format nil "~:[+~;~a~]~a" (minusp (reduce #'+ down)) +minus+
+                (char "XYZ" (position 1 down :key #'abs)))
+        (place-text down))))
+
+(defun lying-text (box)
+  "Return how BOX lies, a sentence, if it has a pose or a centre of mass of its own, or NIL."
+  (let ((parts (append (and (box-pose box) (list (format nil "down is ~a" (down-text box))))
+                       (and (notevery #'zerop (box-centre box))
+                            (list (format nil "the centre of mass is at ~a"
+                                          (place-text (box-centre box))))))))
+    (and parts (format nil "In the box frame ~a." (list-text parts)))))
 
 (defun draw-heading (heading lines width)
   "Write HEADING and LINES at the top of a picture WIDTH wide."

@@ -8,6 +8,12 @@
     (0 0 "from the right" ("" "Y" "Z")))
   "Azimuth, elevation, caption and visible axes of the flat views.")
 
+(defun flat-caption (subject index)
+  "Return from where the flat view INDEX sees SUBJECT; or what it sees, if the box does not stand on Z2."
+  (if (lies-as-drawn-p subject)
+      (third (nth index +flat-views+))
+      (format nil "onto ~a" (nth index '("Z1" "Y2" "X1")))))
+
 (defun flat-camera (azimuth elevation)
   (if (= elevation 90)
       (make-camera :azimuth -90 :elevation 90 :right (axis-vector 0) :up (axis-vector 1)
@@ -27,11 +33,11 @@
                       minimize (view-scale (fit-view camera vectors area)))))
     (loop for camera in cameras
           for area in areas
-          for (nil nil caption names) in +flat-views+
+          for (nil nil nil names) in +flat-views+
           for i from 0
           do (let ((cell-area (list x (+ y (* i cell)) width (- cell 8))))
                (apply #'draw-rectangle (append cell-area (list "frame")))
-               (draw-text caption (list (+ x 8) (+ y (* i cell) 17)) :class "soft")
+               (draw-text (flat-caption subject i) (list (+ x 8) (+ y (* i cell) 17)) :class "soft")
                (draw-axes camera (list (+ x 20) (+ y (* (1+ i) cell) -26)) names 20)
                (occupy (list (+ x 4) (+ y (* (1+ i) cell) -62) 48 52))
                (draw-subject subject (fit-view camera vectors area scale) :small t)
@@ -90,11 +96,11 @@
 
 (defun candidate-description (candidate plan subject)
   "Return what a picture of CANDIDATE shows, for those who can't see it."
-  (format nil "~a holds a box, ~a, with the matching ~a. The palm is over ~a. ~a ~a"
+  (format nil "~a holds a box, ~a, with the matching ~a. The palm is over ~a. ~a ~a~@[ ~a~]"
           (candidate-grasp candidate) (box-text (plan-box plan))
           (matching-text (candidate-matching candidate))
           (face-name (subject-palm subject)) (fingers-text subject)
-          (constrained-text (plan-box plan))))
+          (constrained-text (plan-box plan)) (lying-text (plan-box plan))))
 
 (defun constrained-text (box)
   "Return which faces of BOX are constrained, and its facts, for those who can't see them."

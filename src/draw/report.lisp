@@ -120,6 +120,10 @@ forces in units of one finger’s greatest normal force, torques in their produc
       (loop for (name value) in
             `(("Size along X, Y, Z" ,(size-text (box-size box)))
               ("Weight" ,(format nil "~a finger forces" (quantity (box-weight box) 4)))
+              ,@(and (box-pose box)
+                     `(("Down, in the box frame" ,(down-text box))))
+              ,@(and (notevery #'zerop (box-centre box))
+                     `(("Centre of mass" ,(format nil "~a cm" (place-text (box-centre box))))))
               ("Friction u" ,(quantity (box-friction box) 4))
               ("Soft finger v" ,(format nil "~a cm" (quantity (box-soft-friction box) 4)))
               ("Constrained faces" ,(if (box-constrained box)
@@ -174,8 +178,10 @@ forces in units of one finger’s greatest normal force, torques in their produc
 
 (defun flat-picture (subject index)
   "Return SUBJECT seen from one of the three sides, all in one scale."
-  (destructuring-bind (azimuth elevation caption names) (nth index +flat-views+)
-    (let ((camera (flat-camera azimuth elevation)) (area '(2 2 296 196)))
+  (destructuring-bind (azimuth elevation words names) (nth index +flat-views+)
+    (declare (ignore words))
+    (let ((camera (flat-camera azimuth elevation)) (area '(2 2 296 196))
+          (caption (flat-caption subject index)))
       (with-picture (300 200 (format nil "Seen ~a" caption)
                              (if (subject-palm subject) (fingers-text subject) "The box alone."))
         (draw-text caption '(10 20) :class "soft")

@@ -358,8 +358,8 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
                       "force-tip")))))
 
 (defun draw-weight (subject)
-  "Draw the weight: an arrow from the box centre down."
-  (when (and (subject-load subject) (centre-shown-p subject))
+  "Draw the weight: an arrow from the centre of mass down."
+  (when (weight-shown-p subject)
     (destructuring-bind (from to) (mapcar #'at (weight-ends subject))
       (draw-arrow from to)
       (unless (near-contact-p from subject)

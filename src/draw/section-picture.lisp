@@ -45,7 +45,7 @@ no other force or torque being exerted: points in units of what the task needs."
                          collect (list (getf contact :position) (getf contact :normal))))
          (scales (mapcar (lambda (axis) (need-or-one (nth axis (box-force-needed box)))) axes)))
     (flet ((held-p (number x y)
-             (let ((load (list 0 0 (- (box-weight box)) 0 0 0)))
+             (let ((load (box-gravity box)))
                (loop for axis in axes
                      for scale in scales
                      for part in (list x y)

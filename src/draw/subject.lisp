@@ -12,10 +12,11 @@ the finger from the palm to the position."
   "A box to be drawn, and a grasp of it if PALM, the face that the palm is over, is not NIL.
 LOW and HIGH are the corners of what is shown of it; GAP the length, in cm, from which all that is
 not to scale is made.  PALM-LOW and PALM-HIGH are the corners of the palm's plate.  NAMER returns
-the name of a face.  LOAD is the weight as text, or NIL for no weight to be drawn; LABELLED is NIL
-if the grasp centre is to be drawn without words."
+the name of a face.  LOAD is the weight as text, or NIL for no weight to be drawn; it acts at MASS in the
+direction DOWN.  LABELLED is NIL if the grasp centre is to be drawn without words."
   size low high (gap 0) (blocked '()) (contacts '()) (centre '(0d0 0d0 0d0)) (palm nil)
-  palm-low palm-high (namer #'face-name) (load nil) (labelled t))
+  palm-low palm-high (namer #'face-name) (load nil) (mass '(0d0 0d0 0d0)) (down '(0d0 0d0 -1d0))
+  (labelled t))
 
 (defun subject-cut-p (subject)
   "True if only part of the box is shown."
@@ -139,6 +140,7 @@ OPTIONS are other slots of the subject."
              (level (palm-level palm low high positions gap))
              (subject (apply #'make-subject :size size :low low :high high :gap gap :palm palm
                              :blocked (blocked-faces (plan-box plan))
+                             :mass (box-centre (plan-box plan)) :down (box-down (plan-box plan))
                              :centre (candidate-offset candidate) :allow-other-keys t options)))
         (setf (subject-contacts subject)
               (loop for contact in found
@@ -160,7 +162,8 @@ OPTIONS are other slots of the subject."
   "Return the subject of BOX without a grasp; OPTIONS are other slots."
   (let* ((size (box-size box)) (half (v* 0.5d0 size)) (low (v* -1 half)))
     (apply #'make-subject :size size :low low :high half :gap (gap-of low half)
-                          :blocked (blocked-faces box) options)))
+                          :blocked (blocked-faces box) :mass (box-centre box)
+                          :down (box-down box) options)))
 
 ;;; What follows from a subject
 
@@ -184,8 +187,29 @@ side."
 
 (defun weight-ends (subject)
   "Return where the arrow of weight begins and ends: it leaves the box below."
-  (list '(0d0 0d0 0d0)
-        (list 0d0 0d0 (- (third (subject-low subject)) (* 1.1 (subject-gap subject))))))
+  (let* ((mass (subject-mass subject)) (down (subject-down subject))
+         (way (loop for low in (subject-low subject)
+                    for high in (subject-high subject)
+                    for at in mass
+                    for part in down
+                    unless (zerop part)
+                      minimize (/ (- (if (plusp part) high low) at) part))))
+    (list mass (v+ mass (v* (+ way (* 1.1 (subject-gap subject))) down)))))
+
+(defun weight-shown-p (subject)
+  "True if the weight of SUBJECT is to be drawn: it acts in what is shown."
+  (and (subject-load subject)
+       (every #'<= (subject-low subject) (subject-mass subject) (subject-high subject))))
+
+(defun upper-face (subject)
+  "Return the face of SUBJECT that looks up most."
+  (let ((up (mapcar #'- (subject-down subject))))
+    (reduce (lambda (a b) (if (> (dot up (face-normal b)) (dot up (face-normal a))) b a))
+            '(1 0 3 2 5 4))))
+
+(defun lies-as-drawn-p (subject)
+  "True if Z1 is above, as in the box frame."
+  (equal (subject-down subject) '(0d0 0d0 -1d0)))
 
 (defun plate-corners (face subject)
   "Return the corners, low and high, of the plate that stands for what constrains FACE."
@@ -223,5 +247,5 @@ side."
                     (arrow-ends subject)
                     (mapcan (lambda (contact) (copy-list (contact-path contact)))
                             (subject-contacts subject))))
-          (when (and (subject-load subject) (centre-shown-p subject))
+          (when (weight-shown-p subject)
             (weight-ends subject))))

@@ -10,6 +10,8 @@
   :TEXT          a string, or nothing
   :NUMBER        a number from 0
   (:NUMBERS n)   N numbers above 0
+  :PLACE         three numbers
+  :POSE          a list of three numbers and one of four: see pose.lisp
   :NEEDS         a list of six numbers from 0 to 1
   :FACES         faces, any number of them
   :FACTS         sentences, any number of them: see box-facts.lisp.
@@ -79,7 +81,7 @@ DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles, fac
 
 (defun spread-p (row)
   "True if the values of the key ROW follow it one by one; in JSON they are an array."
-  (or (member (box-key-type row) '(:faces :facts)) (consp (box-key-type row))))
+  (or (member (box-key-type row) '(:faces :facts :place)) (consp (box-key-type row))))
 
 ;;; Notations.  A description is checked in the paper's form; messages speak as it was written.
 
@@ -148,12 +150,12 @@ value, and an element of that."
             (key-name *notation* row) (key-takes row)))
 
 (defun number-in (value least most)
-  "Return VALUE as a double if it is a real from LEAST to MOST (NIL for no bound), or NIL."
+  "Return VALUE as a double if it is a real from LEAST to MOST (each NIL for no bound), or NIL."
   (let ((number (and (realp value) (as-double value))))
-    (and number (>= number least) (or (null most) (<= number most)) number)))
+    (and number (or (null least) (>= number least)) (or (null most) (<= number most)) number)))
 
 (defun number-list (row list count least most values &rest spot)
-  "Return LIST, COUNT numbers from LEAST to MOST, as an array of doubles, or complain.  SPOT are the
+  "Return LIST, COUNT numbers from LEAST to MOST, NIL for no bound, as an array of doubles, or complain.  SPOT are the
 numbers of the place of LIST among VALUES, for VALUE-SPOT."
   (let ((numbers (make-array count :element-type 'double-float))
         (place 0))

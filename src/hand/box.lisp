@@ -8,7 +8,9 @@
 (defstruct (box (:conc-name %box-) (:constructor %make-box) (:copier nil) (:predicate box-p))
   "A box and what is to be done with it.  SIZE along X Y Z in cm; WEIGHT in finger forces;
 FRICTION the coefficient u; SOFT-FRICTION v, that of the soft finger's torque, in cm; CONSTRAINED a set of faces;
-FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z; FACTS a list of BOX-FACTs."
+FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z; FACTS a list of BOX-FACTs.
+DOWN is the unit vector of gravity, MASS-CENTRE the centre of mass from the box centre; PLAIN is true if
+these are -Z and the box centre."
   (name nil :read-only t)
   (size nil :type three :read-only t)
   (weight 0d0 :type double-float :read-only t)
@@ -19,7 +21,10 @@ FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z; FACTS a l
   (velocity nil :type six :read-only t)
   (facts '() :type list :read-only t)
   (others '() :type list :read-only t)  ; a plist of the values of keys without a slot of their own
-  (line nil :read-only t))
+  (line nil :read-only t)
+  (down nil :type three :read-only t)        ; see pose.lisp
+  (mass-centre nil :type three :read-only t)
+  (plain t :type boolean :read-only t))
 
 (defun box-name (box) "Return the name of BOX, a string, or NIL." (%box-name box))
 (defun box-size (box) "Return the sizes of BOX along X Y Z, a list, in cm."

@@ -65,6 +65,12 @@ a number up to a million."
         when (eql number (as-double (first (read-all (string-source text))))) return text
         finally (return text)))
 
+(defun plain-real (number)
+  "Return NUMBER as an integer, if it is a whole one that is written shorter so."
+  (if (and (< (abs number) 1d6) (= number (fround number)))
+      (round number)
+      number))
+
 ;;; As the paper prints qualities
 
 (defun three-decimals (number)

@@ -44,6 +44,19 @@ a list of numbers, each that of an element."
            (complain (clause-spot) "~a is given twice" (key-name *notation* row)))
           (t row))))
 
+(defun key-spot (key description)
+  "Return where in DESCRIPTION, a list of clauses, that of KEY begins, as CLAUSE-SPOT does."
+  (let ((*clause* (position-if (lambda (clause)
+                                 (and (consp clause) (eq (key-named (first clause)) (find-key key))))
+                               description)))
+    (clause-spot)))
+
+(defun complain-of-centre (values description)
+  "Complain if the centre of mass in VALUES, those of DESCRIPTION, lies outside the box."
+  (let ((reason (centre-fault values)))
+    (when reason
+      (complain (key-spot :centre description) "~a" reason))))
+
 (defun box-values (description)
   "Return a plist of the values in DESCRIPTION, a list of clauses, complaining of what is wrong."
   (let ((values '()) (keys '()) (*clause* 0))
@@ -55,6 +68,7 @@ a list of numbers, each that of an element."
       (incf *clause*))
     (complain-of-missing keys)
     (complain-of-no-need values)
+    (complain-of-centre values description)
     values))
 
 (defun complain-of-missing (keys)
@@ -114,7 +128,7 @@ Signals a BOX-ERROR that holds all that is wrong with it."
         (cond ((null value))
               ((box-key-slot row) (setf slots (list* (box-key-slot row) value slots)))
               (t (setf others (list* (box-key-key row) value others))))))
-    (apply #'%make-box :line line :others others slots)))
+    (apply #'%make-box :line line :others others (append (gravity-slots others) slots))))
 
 (defun box-with (box row value)
   "Return a box as BOX with VALUE for the key ROW."

@@ -9,7 +9,8 @@ holds the same as axes (0 to 2) and registers in turn, without the axes that the
 The other parts are PROGRAMs; COMPARISONS is an alist from the comparisons in CONDITIONS-NODE to those of their operands.
 DRAFT has the nodes of all parts.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
-SAME, for each matching, the set of those that are the same grasp, itself included."
+SAME, for each matching, the set of those that are the same grasp, itself included; SAME-CENTRE, of those
+of them whose grasp centre is surely the same place of the box."
   (name "" :type string :read-only t) (index 0 :type fixnum :read-only t)
   (definition nil :read-only t) (draft nil :read-only t)
   (file nil :read-only t) (line nil :read-only t) (comment '() :read-only t)
@@ -24,6 +25,8 @@ SAME, for each matching, the set of those that are the same grasp, itself includ
   (usable (make-array 64 :element-type '(unsigned-byte 24))
    :type (simple-array (unsigned-byte 24) (64)) :read-only t)
   (same (make-array 24 :element-type '(unsigned-byte 24))
+   :type (simple-array (unsigned-byte 24) (24)) :read-only t)
+  (same-centre (make-array 24 :element-type '(unsigned-byte 24))
    :type (simple-array (unsigned-byte 24) (24)) :read-only t))
 
 (defun grasp-form (grasp)
@@ -298,13 +301,27 @@ and sentences."
            (loop for grasp-face in fingers
                  always (= (count grasp-face fingers) (count (svref turn grasp-face) fingers))))))
 
-(defun same-matchings (used fingers)
-  "Return, for each matching, the set of those that are the same grasp."
+(defun kept-centre-p (kind offset)
+  "True if a turn of KIND surely leaves a grasp centre that OFFSET, a node, gives where it is: the
+coordinates that the turn changes are always 0."
+  (flet ((zero-p (entry) (and (constant-p entry) (zerop (constant-value entry)))))
+    (node-case (:six offset)
+      (:list (&rest entries)
+        (every #'zero-p (if (eq kind :half-turn) (subseq entries 0 4) entries)))
+      (:let (nodes body)
+        (declare (ignore nodes))
+        (kept-centre-p kind body))
+      (:cond (&rest clauses)
+        (loop for (nil value) in clauses always (kept-centre-p kind value)))
+      (:computed () nil))))
+
+(defun same-matchings (used fingers turns)
+  "Return, for each matching, the set of those of TURNS (see +TURNS+) of it that are the same grasp."
   (let ((sets (make-array 24 :element-type '(unsigned-byte 24))))
     (loop for matching across +matchings+
           do (setf (aref sets (matching-index matching))
                    (reduce #'logior
-                           (loop for (kind turn) in +turns+
+                           (loop for (kind turn) in turns
                                  when (allowed-turn-p kind turn used fingers)
                                    collect (ash 1 (matching-index (turned matching turn))))
                            :initial-value (ash 1 (matching-index matching)))))
@@ -352,7 +369,11 @@ has one of them."
      :wrench (six-program (draft-wrench draft) layout)
      :twist (six-program (draft-twist draft) layout)
      :usable (usable-matchings (draft-used draft))
-     :same (same-matchings (draft-used draft) fingers))))
+     :same (same-matchings (draft-used draft) fingers +turns+)
+     :same-centre (same-matchings (draft-used draft) fingers
+                                  (remove-if-not (lambda (turn)
+                                                   (kept-centre-p (first turn) (draft-offset draft)))
+                                                 +turns+)))))
 
 ;;; The file
 

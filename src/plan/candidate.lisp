@@ -147,11 +147,13 @@ more.  NIL if it is not possible, or the task needs no force.  u_w looks at one 
 no such promise.  Source: SURE-RADIUS."
   (and (eq (candidate-outcome candidate) :possible)
        (with-replay (workspace candidate plan)
-         (let ((box (workspace-box workspace))
-               (gravity (make-six)))
-           (setf (aref gravity 2) (- (%box-weight box)))
-           (sure (workspace-wrench workspace) (%box-force box) gravity
-                 (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))))
+         (sure-of candidate workspace))))
+
+(defun sure-of (candidate workspace)
+  "Return the sure radius of CANDIDATE, whose figures WORKSPACE holds; NIL if the task needs no force."
+  (let ((box (workspace-box workspace)))
+    (sure (workspace-wrench workspace) (%box-force box) (gravity-on box)
+          (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))
 
 (defun candidate-palm (candidate)
   "Return the name of the box face that the palm of CANDIDATE is over."
@@ -179,7 +181,10 @@ six numbers along X Y Z and about X Y Z."
 (defun candidate-load (candidate plan)
   "Return the load of gravity at the grasp centre of CANDIDATE: six numbers along X Y Z and about
 X Y Z."
-  (six-at-centre #'put-load (box-weight (plan-box plan)) candidate))
+  (let ((load (make-six)))
+    (put-load (plan-box plan) (%candidate-x candidate) (%candidate-y candidate)
+              (%candidate-z candidate) load)
+    (coerce load 'list)))
 
 ;;; The best one of a plan
 

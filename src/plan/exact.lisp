@@ -13,11 +13,6 @@ motion WORST shows; LOWER, certified, or NIL.  STAGE says what UPPER comes of: t
 from them, or a whole :SEARCH."
   grip (upper 0d0 :type double-float) (lower nil) (worst nil) (stage :axes :type symbol))
 
-(defun gravity-on (box)
-  "Return the wrench of the weight of BOX about its centre, a six."
-  (let ((gravity (make-six)))
-    (setf (aref gravity 2) (- (%box-weight box)))
-    gravity))
 
 (defun contacts-grip (candidate workspace
                       &optional (friction (%box-friction (workspace-box workspace))))
@@ -49,7 +44,7 @@ from them, or a whole :SEARCH."
 
 (define-step (contact-lifting :exact) :lifting (candidate workspace)
   (let ((gravity (gravity-on (workspace-box workspace))))
-    (or (zerop (aref gravity 2))
+    (or (zerop (%box-weight (workspace-box workspace)))
         (grip-holds-p (strength-grip (%candidate-strength candidate)) gravity))))
 
 (define-step (exact-quality :exact) :open (candidate workspace)
@@ -76,7 +71,7 @@ from them, or a whole :SEARCH."
           (fill motion 0d0)
           (setf (aref motion axis) way)
           (let ((radius (/ (+ (grip-power (strength-grip strength) motion scratch)
-                              (* (aref gravity 2) (aref motion 2)))
+                              (* (aref gravity axis) way))
                            (aref need axis))))
             (when (< radius (strength-upper strength))
               (setf (aref motion axis) (/ way (aref need axis))
@@ -112,13 +107,12 @@ NEED needs; -1 if there is none."
 (defun counted-radius (candidate workspace)
   "Return the radius with which CANDIDATE counts: a bound until the search is over, then the certified
 one or, if there is none, the sure radius."
-  (let ((strength (%candidate-strength candidate)) (box (workspace-box workspace)))
+  (let ((strength (%candidate-strength candidate)))
     (cond ((null (strength-worst strength)) 0d0)
           ((%candidate-bound candidate) (strength-upper strength))
           ((strength-lower strength))
           (t (replay candidate workspace)
-             (sure (workspace-wrench workspace) (%box-force box) (gravity-on box)
-                   (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))))
+             (sure-of candidate workspace)))))
 
 (defun rate-exactly (candidate workspace)
   "Put into CANDIDATE the radius and the quality that its strength gives."
@@ -238,4 +232,4 @@ fingertips' torque and of the weight.  Together they are the radius times what t
                           collect (finger-powers (getf contact :position) (getf contact :normal)
                                                  (%box-friction box) (%box-soft-friction box)
                                                  motion)))
-            (list (- (* (%box-weight box) (third motion)))))))
+            (list (reduce #'+ (map 'list #'* (gravity-on box) motion))))))

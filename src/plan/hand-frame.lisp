@@ -84,3 +84,20 @@ Of the shipped grasps the first holds for 2-PARALLEL, 3-PARALLEL and the C-SHAPE
 U-SHAPE, x = O; the third for the CORNER.  In the ADJACENT grasps the palm is over O1, so that the lone
 contact's normal lies along z, and the fourth holds: x = -N."
   (contacts-hand candidate (candidate-contacts candidate plan) (plan-box plan)))
+
+(defun hand-in-world (hand pose)
+  "Return HAND, as CANDIDATE-HAND has it, as a box of POSE has it in the world."
+  (destructuring-bind (&key position orientation opening closing) hand
+    (let ((matrix (pose-matrix pose)))
+      (list :position (mapcar #'+ (pose-position pose) (turned-vector matrix position))
+            :orientation (standard-quaternion
+                          (quaternion-product (unit-length (pose-orientation pose)) orientation))
+            :opening opening
+            :closing (turned-vector matrix closing)))))
+
+(defun candidate-world (candidate &optional (plan *plan*))
+  "Return where the hand of CANDIDATE, which is possible in PLAN, is in the world: as CANDIDATE-HAND, but
+in the frame in which the POSE of the box is given; :POSITION is that of the grasp centre.  NIL if the
+box has no pose."
+  (let ((pose (%box-pose (plan-box (need-plan plan)))))
+    (and pose (hand-in-world (candidate-hand candidate plan) pose))))

@@ -55,14 +55,31 @@ it: those along the axes grow.  Source: reconstructed, see docs/physics.md."
   (replace out needs)
   (add-turned offset 3 needs out 0))
 
-(defun put-load (weight offset out)
-  "Put into OUT the load of gravity: WEIGHT along Z, and the torques that it causes at the grasp
-centre, OFFSET from the box centre."
-  (declare (double-float weight) (type three offset) (type six out))
-  (fill out 0d0)
-  (setf (aref out 2) weight
-        (aref out 3) (* (aref offset 1) weight)
-        (aref out 4) (* (aref offset 0) weight)))
+(defun put-load (box x y z out)
+  "Put into OUT the load of gravity at a grasp centre X Y Z from the centre of BOX: the weight along the
+axes, and the torques that it causes there, all without signs."
+  (declare (type box box) (double-float x y z) (type six out))
+  (let ((weight (%box-weight box)))
+    (if (%box-plain box)
+        (setf (aref out 0) 0d0
+              (aref out 1) 0d0
+              (aref out 2) weight
+              (aref out 3) (* weight (abs y))
+              (aref out 4) (* weight (abs x))
+              (aref out 5) 0d0)
+        (put-turned-load weight (%box-down box) (%box-mass-centre box) x y z out))))
+
+(defun put-turned-load (weight down centre x y z out)
+  "Put into OUT the load of WEIGHT in the direction DOWN, a unit vector, at X Y Z, if it acts at CENTRE."
+  (declare (double-float weight x y z) (type three down centre) (type six out))
+  (let ((gx (aref down 0)) (gy (aref down 1)) (gz (aref down 2))
+        (x (- x (aref centre 0))) (y (- y (aref centre 1))) (z (- z (aref centre 2))))
+    (setf (aref out 0) (* weight (abs gx))
+          (aref out 1) (* weight (abs gy))
+          (aref out 2) (* weight (abs gz))
+          (aref out 3) (* weight (abs (- (* y gz) (* z gy))))
+          (aref out 4) (* weight (abs (- (* z gx) (* x gz))))
+          (aref out 5) (* weight (abs (- (* x gy) (* y gx)))))))
 
 (defun quality-index (gamma velocity-radius velocity-limit force-radius force-limit)
   "Return Q = GAMMA u_t + (1 - GAMMA) u_w; where a task needs only forces or only velocities (its

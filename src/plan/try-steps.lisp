@@ -31,8 +31,8 @@ if QUALITY and FORCE-RADIUS are no more than upper bounds."
   (quality-sign candidate) (%candidate-quality candidate))
 
 (defstruct (index (:constructor make-index (name same choose)))
-  "What grasps are rated by.  NAME is a keyword.  SAME is a function of a grasp: for each matching, the
-set of those that the index does not tell apart.  CHOOSE is a function of a workspace and a log: the
+  "What grasps are rated by.  NAME is a keyword.  SAME is a function of a grasp and a box: for each
+matching, the set of those that the index does not tell apart.  CHOOSE is a function of a workspace and a log: the
 best candidate, or NIL."
   (name nil :type keyword :read-only t)
   (same nil :type function :read-only t)
@@ -69,7 +69,13 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
 
 (define-printing (workspace workspace) "~@[at ~a~]" (workspace-box workspace))
 
-(setf *indices* (with-row (make-index :paper #'grasp-same (lambda (workspace log)
+(defun same-by-axes (grasp box)
+  "Return, for each matching of GRASP, the set of those that six numbers, one an axis, do not tell apart
+on BOX.  Where gravity is plain, it does not matter to which side the grasp centre lies."
+  (declare (type grasp grasp) (type box box))
+  (if (%box-plain box) (grasp-same grasp) (grasp-same-centre grasp)))
+
+(setf *indices* (with-row (make-index :paper #'same-by-axes (lambda (workspace log)
                                                             (declare (ignore log))
                                                             (workspace-best workspace)))
                   *indices* #'index-name))
@@ -275,7 +281,8 @@ workspace: AHEAD and BEHIND of the axes of the box, and the lesser of both.  NIL
         (shares 0d0))
     (declare (double-float shares))
     (turn-centre workspace (%candidate-matching candidate) candidate)
-    (put-load (%box-weight (workspace-box workspace)) (workspace-offset workspace) load)
+    (put-load (workspace-box workspace) (%candidate-x candidate) (%candidate-y candidate)
+              (%candidate-z candidate) load)
     (dotimes (axis 6 (<= shares 1d0))
       (incf shares (/ (aref load axis) (aref wrench axis))))))
 

@@ -27,7 +27,8 @@ before.  The log of MEMORY gets the candidates."
   (let* ((workspace (memory-client memory))
          (tried (workspace-tried workspace))
          (index (grasp-index grasp))
-         (same (funcall (index-same (workspace-index workspace)) grasp))
+         (same (funcall (index-same (workspace-index workspace)) grasp
+                        (workspace-box workspace)))
          (open (logand suggested
                        (aref (grasp-usable grasp) (%box-constrained (workspace-box workspace))))))
     (declare (type workspace workspace) (type matching-set open)

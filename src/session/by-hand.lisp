@@ -28,9 +28,10 @@ any; NIL allows all."
        (remove-if-not (lambda (name) (find-grasp (knowledge-graspbase knowledge) name))
                       (plan-tries *plan*) :key #'car)))
 
-(defun put-try (grasp set tries index)
-  "Return TRIES with GRASP in the matchings SET as the last, and no equal of these by INDEX before it."
-  (let ((same (loop with same = (funcall (index-same (index-named index)) grasp)
+(defun put-try (grasp set tries box index)
+  "Return TRIES on BOX with GRASP in the matchings SET as the last, and no equal of these by INDEX before
+it."
+  (let ((same (loop with same = (funcall (index-same (index-named index)) grasp box)
                     for matching below (length +matchings+)
                     when (logbitp matching set)
                       collect (aref same matching))))
@@ -69,7 +70,8 @@ Source: the paper, Low-level System."
          (grasp (need-grasp name (check-knowledge-argument knowledge)))
          (set (suggested-set suggestion))
          (stream (output-stream stream))
-         (plan (try-without-rules (put-try grasp set (tried-before box knowledge) index)
+         (plan (try-without-rules (put-try grasp set (tried-before box knowledge) box
+                                           index)
                                   box :knowledge knowledge :gamma gamma :index index))
          (tried (remove-if-not (lambda (candidate)
                                  (logbitp (matching-index (%candidate-matching candidate)) set))

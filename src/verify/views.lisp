@@ -98,17 +98,15 @@ whose value is VALUE: what PARSE-VALUES takes.")
     (map 'list #'plain-real value))
   (:method ((type (eql :needs)) value)
     (list (map 'list #'plain-real value)))
+  (:method ((type (eql :place)) value)
+    (map 'list #'plain-real value))
+  (:method ((type (eql :pose)) value)
+    (loop for numbers in (shown-value :pose value) collect (mapcar #'plain-real numbers)))
   (:method ((type (eql :facts)) value)
     (loop for fact in value collect (fact-list fact #'canonical-name)))
   (:method ((type (eql :faces)) value)
     (loop for face from 5 downto 0
           when (logbitp face value) collect (canonical-name (face-name face)))))
-
-(defun plain-real (number)
-  "Return NUMBER as an integer, if it is a whole one that is written shorter so."
-  (if (and (< (abs number) 1d6) (= number (fround number)))
-      (round number)
-      number))
 
 (defun box-text (box)
   "Return the description of BOX as it is typed, in one line."

@@ -87,6 +87,8 @@ nothing is known."
                 :forms (or (gethash key forms)
                            (setf (gethash key forms) (make-hash-table :test #'eq))))))
 
+(defun sheet-box (sheet) (plan-box (line-plan (sheet-line sheet))))
+
 (defun sheet-number (sheet node) (node-curve node (sheet-inputs sheet) (sheet-forms sheet)))
 
 (defun sheet-six (sheet node)
@@ -157,19 +159,59 @@ nothing is known."
                       (turn (draft-twist draft) (sheet-twist sheet) (constant-curve -1d-300)))))))
 
 (define-step-curve lifting (sheet)
-  (let ((offset (sheet-offset sheet)) (load (sheet-load sheet)) (wrench (sheet-wrench sheet))
-        (weight (box-curve (sheet-line sheet) :weight)))
+  (let ((offset (sheet-offset sheet)))
     (loop for centre in (sheet-centre sheet)
           for axis across (matching-axes (sheet-matching sheet))
           repeat 3
           do (setf (svref offset axis) (as-curve (abs centre))))
-    (fill load (constant-curve 0d0))
-    (setf (svref load 2) weight
-          (svref load 3) (as-curve (* (svref offset 1) weight))
-          (svref load 4) (as-curve (* (svref offset 0) weight)))
-    (let ((shares (sum-curve (loop for axis from 2 to 4
-                                   collect (as-curve (/ (svref load axis) (svref wrench axis)))))))
+    (replace (sheet-load sheet) (load-curves sheet))
+    (let ((shares (sum-curve (loop for load across (sheet-load sheet)
+                                   for has across (sheet-wrench sheet)
+                                   unless (zero-curve-p load) collect (as-curve (/ load has))))))
       (as-curve (<= shares 1d0)))))
+
+(defun zero-curve-p (curve) (and (fixed-p curve) (zerop (curve-least curve))))
+
+(defun times-curve (curve number)
+  "Return CURVE times NUMBER, 0 or more."
+  (cond ((zerop number) (constant-curve 0d0))
+        ((= number 1d0) curve)
+        (t (as-curve (* curve (constant-curve number))))))
+
+(defun arm-curve (sheet axis)
+  "Return the curve of the grasp centre of SHEET from the centre of mass, along AXIS, 0 to 2."
+  (let* ((matching (sheet-matching sheet))
+         (place (position axis (matching-axes matching)))
+         (centre (nth place (sheet-centre sheet)))
+         (signed (if (minusp (aref (matching-signs matching) place))
+                     (as-curve (- 0d0 centre))
+                     centre))
+         (mass (constant-curve (aref (%box-mass-centre (sheet-box sheet)) axis))))
+    (if (zero-curve-p mass) signed (as-curve (- signed mass)))))
+
+(defun moment-curve (sheet i j)
+  "Return the curve of the torque of a weight of 1 at the grasp centre of SHEET, without sign; I and J
+are the two axes that it is not about."
+  (let* ((box (sheet-box sheet))
+         (down-i (aref (%box-down box) i)) (down-j (aref (%box-down box) j)))
+    (flet ((size (axis)
+             (if (zerop (aref (%box-mass-centre box) axis))
+                 (svref (sheet-offset sheet) axis)
+                 (as-curve (abs (arm-curve sheet axis))))))
+      (cond ((zerop down-i) (times-curve (size i) (abs down-j)))
+            ((zerop down-j) (times-curve (size j) (abs down-i)))
+            (t (let ((a (arm-curve sheet i)) (b (arm-curve sheet j)))
+                 (as-curve (abs (- (* a (constant-curve down-j))
+                                   (* b (constant-curve down-i)))))))))))
+
+(defun load-curves (sheet)
+  "Return the six curves of the load of gravity on the candidate of SHEET: as PUT-LOAD."
+  (let ((weight (box-curve (sheet-line sheet) :weight)))
+    (append (loop for down across (%box-down (sheet-box sheet))
+                  collect (times-curve weight (abs down)))
+            (loop for (i j) in '((1 2) (2 0) (0 1))
+                  for moment = (moment-curve sheet i j)
+                  collect (if (zero-curve-p moment) moment (as-curve (* weight moment)))))))
 
 (defun shifted-curves (needs from to offset)
   "Return NEEDS, six curves, at the grasp centre, OFFSET from the box centre: as ADD-TURNED."

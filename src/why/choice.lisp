@@ -17,8 +17,13 @@ steps."
 
 ;;; How it holds the box
 
-(defparameter +approaches+ #("below" "above" "the side Y2" "the side Y1" "the side X2" "the side X1")
-  "Where a palm over each face comes from.")
+(defun approach-text (face box)
+  "Return where a palm over FACE of BOX comes from: \"above\" up to 30 degrees from there, a side up to
+30 degrees from level."
+  (let ((up (- (* (face-sign face) (aref (%box-down box) (face-axis face))))))
+    (cond ((<= (abs up) 0.5d0) (format nil "the side ~a" (face-name face)))
+          (t (format nil "~:[obliquely ~;~]~:[below~;above~]" (> (abs up) (sqrt 0.75d0))
+                     (plusp up))))))
 
 (defun fingers-on (grasp face-name)
   "Return what stands on each face that GRASP touches, and the face as FACE-NAME, a function of its
@@ -29,15 +34,15 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
         collect (if (= count 1) "a finger" (format nil "~r fingers" count))
         collect (funcall face-name grasp-face)))
 
-(defun grasp-sentence (candidate)
-  "Return how CANDIDATE holds the box, in a sentence that a person would say."
+(defun grasp-sentence (candidate box)
+  "Return how CANDIDATE holds BOX, in a sentence that a person would say."
   (let* ((grasp (%candidate-grasp candidate))
          (faces (matching-faces (%candidate-matching candidate)))
          (palm (svref faces (grasp-palm grasp))))
     (format nil "~a: ~{~a on ~a~^, ~}; the palm over ~a, coming from ~a"
             (grasp-name grasp)
             (fingers-on grasp (lambda (grasp-face) (face-name (svref faces grasp-face))))
-            (face-name palm) (svref +approaches+ palm))))
+            (face-name palm) (approach-text palm box))))
 
 (defun limit-at (axis has needs radius)
   "Return the LIMIT of RADIUS on AXIS, 0 to 5, where the grasp HAS, and the task NEEDS, six numbers."
@@ -123,7 +128,7 @@ EXACT-LIMIT.")
     (multiple-value-bind (changes stepped) (choice-changes-of plan)
       (make-choice :plan plan
                    :sentence (if best
-                                 (grasp-sentence best)
+                                 (grasp-sentence best (plan-box plan))
                                  (format nil "The box can't be grasped: ~a" (plan-reason plan)))
                    :force (and best (force-limit truth best plan))
                    :truth truth

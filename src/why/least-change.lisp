@@ -412,6 +412,14 @@ to four times the greatest dimension of the gripper."
            (max 2d0 (* 4 from) (* 4 reach)))
           (t (max 2d0 (* 4 from))))))
 
+(defun line-start (box row index)
+  "Return where the line of the value of the key ROW of BOX at INDEX begins: what is above 0 almost there,
+a size where the box still has its centre of mass inside."
+  (cond ((not (consp (box-key-type row))) 0d0)
+        ((eq (box-key-slot row) :size)
+         (max (min (value-at box row index) 1d-6) (* 2 (abs (aref (%box-mass-centre box) index)))))
+        (t (min (value-at box row index) 1d-6))))
+
 (defun lines-of (plan goal rows)
   "Return the lines of all values of the box of PLAN that the keys ROWS give, as far as LINE-END
 says."
@@ -421,7 +429,7 @@ says."
         append (loop for index below (value-count row)
                      for from = (value-at box row index)
                      collect (make-line :plan plan :row row :index index :from from :forms forms
-                                        :least (if (consp (box-key-type row)) (min from 1d-6) 0d0)
+                                        :least (line-start box row index)
                                         :most (line-end plan goal row from)))))
 
 (defun find-changes (plan goal rows)

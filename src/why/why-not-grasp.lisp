@@ -103,7 +103,8 @@ TEXT is a sentence, PLAN the plan."
 
 (defun same-grasp (grasp matching plan)
   "Return the set of the matchings in which GRASP is, for the index of PLAN, the same as in MATCHING."
-  (aref (funcall (index-same (index-named (plan-index plan))) grasp) (matching-index matching)))
+  (aref (funcall (index-same (index-named (plan-index plan))) grasp (plan-box plan))
+        (matching-index matching)))
 
 (defun untried-candidates (grasp matching plan)
   "Return the candidates that trying GRASP, in MATCHING or in all, would have given, the best first."

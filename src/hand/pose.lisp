@@ -1,0 +1,128 @@
+;;;; pose.lisp -- how a box lies: its frame in the world, its centre of mass, and gravity.
+;;;;
+;;;; The world's Z points up.  Without a POSE the box frame is turned as the world is, so Z2 is the
+;;;; bottom.  Without a CENTRE the centre of mass is the box centre.
+
+(in-package :supergrip)
+
+(defstruct (pose (:constructor make-pose (position orientation)))
+  "The frame of a box in the world: POSITION, that of the box centre, a list of three, in cm;
+ORIENTATION, a list of four, the quaternion (see rotations.lisp) that turns it there, of length 1 as
+nearly as it was given."
+  (position nil :type list :read-only t) (orientation nil :type list :read-only t))
+
+(define-box-key :pose :pose
+  #.(format nil "the place of the box centre in the world, x y z in cm, and a unit quaternion ~
+                 x y z w, which turns the box there")
+  ((40 0 12.5d0) (0 0 0 1))
+  :optional t)
+(define-box-key :centre :place "three numbers in cm, the centre of mass from the box centre"
+  (0 0 -0.5d0)
+  :optional t)
+
+;;; Reading
+
+(defmethod parse-values ((type (eql :place)) row values)
+  (number-list row values 3 nil nil values))
+
+(defmethod parse-values ((type (eql :pose)) row values)
+  (if (and (= (length values) 2) (every #'consp values))
+      (let ((position (number-list row (first values) 3 nil nil values 0))
+            (orientation (number-list row (second values) 4 nil nil values 1)))
+        (and position orientation
+             (checked-pose row (coerce position 'list) (coerce orientation 'list))))
+      (refuse-value row values)))
+
+(defun rounded-place (number digits)
+  "Return NUMBER, a double, rounded to DIGITS places after the point."
+  (coerce (/ (round (* (rational number) (expt 10 digits))) (expt 10 digits)) 'double-float))
+
+(defun checked-pose (row position orientation)
+  "Return the pose of POSITION and ORIENTATION, lists of doubles that the key ROW gives, or complain."
+  (flet ((text (numbers)
+           (value-text *notation* (mapcar #'plain-real numbers))))
+    (cond ((unit-quaternion-p orientation)
+           (make-pose position orientation))
+          ((every #'zerop orientation)
+           (complain (value-spot row 1) "~a is no rotation; a box that stands upright has ~a"
+                     (text orientation) (text '(0d0 0d0 0d0 1d0))))
+          (t
+           (complain (value-spot row 1) "~a is no unit quaternion: its length is ~a, not 1; the ~
+                                         same rotation has ~a"
+                     (text orientation) (first (number-texts (vector-length orientation) 1))
+                     (text (loop for number in (unit-length orientation)
+                                 collect (rounded-place number 9))))))))
+
+(defun centre-fault (values)
+  "Return in words that the centre of mass in VALUES, a plist, lies outside the box; or NIL."
+  (let* ((centre (getf values :centre)) (size (getf values :size))
+         (axis (and centre size
+                    (position-if #'plusp (map 'list (lambda (c s) (- (abs c) (/ s 2)))
+                                              centre size)))))
+    (when axis
+      (let ((at (aref centre axis)))
+        (format nil "the centre of mass lies outside the box: ~a it is ~a from the box centre, ~
+                     and the box ends at ~a"
+                (axis-name axis) (exact-number-text at)
+                (exact-number-text (* (signum at) 0.5d0 (aref size axis))))))))
+
+;;; Gravity
+
+(defconstant +down-digits+ 12
+  "To how many places the direction of gravity is rounded: the rest is the rounding of quaternions,
+and would tell apart what is the same.")
+
+(defparameter +upright+ (coerce '(0d0 0d0 -1d0) 'three) "Where down is for a box without a pose.")
+(defparameter +box-centre+ (coerce '(0d0 0d0 0d0) 'three))
+
+(defun pose-matrix (pose)
+  "Return the matrix of the rotation of POSE: its columns are the axes of the box in the world."
+  (quaternion-matrix (unit-length (pose-orientation pose))))
+
+(defun down-of (pose)
+  "Return the unit vector down in the frame of a box of POSE, which may be NIL."
+  (if pose
+      (map 'three (lambda (column) (+ 0d0 (rounded-place (- (third column)) +down-digits+)))
+           (pose-matrix pose))
+      +upright+))
+
+(defun gravity-slots (others)
+  "Return the slots of a box that say what gravity does to it, a plist; OTHERS has its pose and
+centre."
+  (let ((down (down-of (getf others :pose))) (centre (getf others :centre +box-centre+)))
+    (list :down down :mass-centre centre
+          :plain (and (equalp down +upright+) (equalp centre +box-centre+)))))
+
+(defun gravity-on (box)
+  "Return the wrench of the weight of BOX about its centre, an array of six."
+  (let* ((force (loop for part across (%box-down box) collect (* (%box-weight box) part)))
+         (torque (cross-product (coerce (%box-mass-centre box) 'list) force)))
+    (map 'six (lambda (number) (+ 0d0 number)) (append force torque))))
+
+(defun box-gravity (box)
+  "Return the wrench of the weight of BOX about the box centre, a list of six: a force along X Y Z,
+a torque about X Y Z, in finger forces and finger force x cm.  EXACT-RADIUS and HOLDS-P take it."
+  (coerce (gravity-on box) 'list))
+
+(defun %box-pose (box)
+  "Return the POSE of BOX, or NIL."
+  (getf (%box-others box) :pose))
+
+(defun box-pose (box)
+  "Return the pose of BOX, as it was given, or NIL: a list of the box centre in the world, in cm, and
+the quaternion (X Y Z W) that turns the box frame there."
+  (shown-value :pose (%box-pose box)))
+
+(defmethod shown-value ((type (eql :pose)) pose)
+  (and pose (list (copy-list (pose-position pose)) (copy-list (pose-orientation pose)))))
+
+(defun box-centre (box)
+  "Return the centre of mass of BOX from the box centre, a list along X Y Z, in cm."
+  (coerce (%box-mass-centre box) 'list))
+
+(defmethod shown-value ((type (eql :place)) place)
+  (and place (coerce place 'list)))
+
+(defun box-down (box)
+  "Return the unit vector down, in the frame of BOX, a list."
+  (coerce (%box-down box) 'list))
