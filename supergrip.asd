@@ -39,6 +39,13 @@
                              (:file "candidate")
                              (:file "hand-frame")
                              (:file "exact")))
+               (:module "refine"
+                :serial t
+                :components ((:file "places")
+                             (:file "cuts")
+                             (:file "search")
+                             (:file "bound")
+                             (:file "refine")))
                (:module "why"
                 :serial t
                 :components ((:file "answers")
@@ -215,6 +222,7 @@
                (:file "exact-statics")
                (:file "exact")
                (:file "hand-frame")
+               (:file "refine")
                (:file "grasp-entries")
                (:file "curves")
                (:file "spoiled")
