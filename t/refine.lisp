@@ -8,14 +8,14 @@
 (defun gripper-length (name)
   (rest (assoc name (supergrip:knowledge-gripper supergrip:*knowledge*) :test #'string=)))
 
-(defun axis-of (face) (position (char face 0) "XYZ"))
+(defun face-normal-axis (face) (position (char face 0) "XYZ"))
 (defun side-of (face) (if (char= (char face 1) #\1) 1 -1))
 (defun other-side (face) (format nil "~a~a" (char face 0) (if (= 1 (side-of face)) 2 1)))
 
 (defun reaches (grasp matching size)
   "Return how far the hand of GRASP, a shipped one, reaches from which face: a list of (FACE CM)."
   (flet ((face (name) (nth (position name '(n1 n2 o1 o2 a1 a2)) matching)))
-    (let* ((d (nth (axis-of (face 'n1)) size)) (link (gripper-length "FINGER-LENGTH"))
+    (let* ((d (nth (face-normal-axis (face 'n1)) size)) (link (gripper-length "FINGER-LENGTH"))
            (base (gripper-length "FINGER-DIST"))
            (inner (if (> base d) (sqrt (- (expt link 2) (expt (/ (- d base) 2) 2))) 0)))
       (cond ((search "U-SHAPE" grasp)
@@ -32,7 +32,7 @@
     (loop for axis below 3
           for place in (getf contact :position)
           for half in (mapcar (lambda (s) (/ s 2)) size)
-          do (if (= axis (axis-of face))
+          do (if (= axis (face-normal-axis face))
                  (unless (close-to place (* (side-of face) half))
                    (return-from place-fault "off its face"))
                  (unless (<= (abs place) (+ 1d-8 (max 0 (- half (/ width 2)))))
@@ -43,7 +43,7 @@
   (let* ((a (getf one :surface)) (b (getf two :surface)) (spread (gripper-length "FINGER-SPREAD"))
          (way (mapcar #'- (getf one :position) (getf two :position)))
          (way (if (equal a (other-side b))
-                  (loop for w in way for axis below 3 collect (if (= axis (axis-of a)) 0 w))
+                  (loop for w in way for axis below 3 collect (if (= axis (face-normal-axis a)) 0 w))
                   way))
          (apart (sqrt (reduce #'+ way :key (lambda (w) (* w w))))))
     (destructuring-bind (least most)
@@ -60,7 +60,7 @@
         (loop for (one . others) on contacts
               thereis (loop for two in others thereis (distance-fault one two)))
         (loop for (face reach) in (reaches grasp matching size)
-              for axis = (axis-of face)
+              for axis = (face-normal-axis face)
               thereis (loop for contact in contacts
                             for depth = (- (/ (nth axis size) 2)
                                            (* (side-of face) (nth axis (getf contact :position))))
@@ -130,7 +130,7 @@
     (loop repeat 2000
           for shift = (loop repeat 3 collect (- (random 4d0 state) 2))
           for contacts = (loop for home in homes
-                               for axis = (axis-of (getf home :surface))
+                               for axis = (face-normal-axis (getf home :surface))
                                collect (list* :position
                                               (loop for place in (getf home :position)
                                                     for k below 3
