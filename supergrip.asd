@@ -42,6 +42,13 @@
                              (:file "candidate")
                              (:file "hand-frame")
                              (:file "exact")))
+               (:module "refine"
+                :serial t
+                :components ((:file "places")
+                             (:file "cuts")
+                             (:file "search")
+                             (:file "bound")
+                             (:file "refine")))
                (:module "why"
                 :serial t
                 :components ((:file "answers")
@@ -225,6 +232,7 @@
                (:file "from-contacts")
                (:file "exact")
                (:file "hand-frame")
+               (:file "refine")
                (:file "grasp-entries")
                (:file "curves")
                (:file "spoiled")

@@ -77,6 +77,12 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-bound-p #:candidate-exact-radius #:candidate-squeeze #:candidate-friction-margin
    #:candidate-powers #:motion-text
    #:try-grasp
+   ;; refining
+   #:refine #:refinement #:refinement-p #:refinement-candidate #:refinement-plan #:refinement-home
+   #:refinement-contacts #:refinement-moved-p #:refinement-radius-before #:refinement-radius
+   #:refinement-radius-bound #:refinement-quality-before #:refinement-quality
+   #:refinement-quality-bound
+   ;; directions
    #:direction-shares #:direction-text
    ;; what contacts can really do
    #:exact-radius #:holds-p #:contact-forces #:wrench-entries #:least-squeeze #:least-friction

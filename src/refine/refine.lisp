@@ -1,0 +1,141 @@
+;;;; refine.lisp -- the third module: the fingers of the best grasps are moved to better places.
+
+(in-package :supergrip)
+
+(defstruct (refinement (:copier nil))
+  "What moving the fingers of CANDIDATE, a possible one of PLAN, has gained.  HOME and CONTACTS are where
+they were and where they are now, as CANDIDATE-CONTACTS has it; RADIUS-BEFORE and RADIUS are (LOWER
+UPPER), the exact radius then and now, LOWER certified or NIL, or NIL where there is none;
+RADIUS-BOUND is what no legal placement exceeds."
+  candidate plan home contacts radius-before radius radius-bound)
+
+(defun radius-quality (refinement radius)
+  "Return the quality that the candidate of REFINEMENT has with RADIUS, a force radius or NIL, which is 0."
+  (let ((candidate (refinement-candidate refinement)))
+    (quality-index (plan-gamma (refinement-plan refinement))
+                   (%candidate-velocity-radius candidate) (%candidate-velocity-limit candidate)
+                   (max 0d0 (or radius 0d0)) (if (refinement-radius refinement) 0 -1))))
+
+(defun refinement-quality-before (refinement)
+  "Return the exact quality of REFINEMENT's grasp as planned: that of its certified exact radius."
+  (radius-quality refinement (first (refinement-radius-before refinement))))
+
+(defun refinement-quality (refinement)
+  "Return the exact quality of REFINEMENT's grasp with its fingers moved."
+  (radius-quality refinement (first (refinement-radius refinement))))
+
+(defun refinement-quality-bound (refinement)
+  "Return a quality that REFINEMENT's grasp does not exceed, wherever its fingers legally stand."
+  (radius-quality refinement (refinement-radius-bound refinement)))
+
+(defun refinement-moved-p (refinement)
+  "True if the fingers of REFINEMENT stand elsewhere than the plan had them."
+  (not (eq (refinement-home refinement) (refinement-contacts refinement))))
+
+(define-printing (refinement refinement) "~a (~{~a~^ ~}) Q~,3f -> ~,3f, at most ~,3f"
+  (candidate-grasp (refinement-candidate refinement))
+  (candidate-matching (refinement-candidate refinement))
+  (refinement-quality-before refinement) (refinement-quality refinement)
+  (refinement-quality-bound refinement))
+
+;;; The search
+
+(defun start-refining (candidate workspace graspbase)
+  "Return the search for better places of the fingers of CANDIDATE, whose figures WORKSPACE holds; and the
+unit of its needs."
+  (let* ((box (workspace-box workspace))
+         (freedom (freedom-of candidate workspace graspbase))
+         (unit (reduce #'max (%box-force box)))
+         (refining (make-refining
+                    :freedom freedom :count (freedom-count freedom)
+                    :normals (map 'simple-vector #'face-axis (freedom-faces freedom))
+                    :signs (map 'doubles (lambda (face) (float (- (face-sign face)) 1d0))
+                                (freedom-faces freedom))
+                    :u (%box-friction box) :v (%box-soft-friction box)
+                    :need (map 'six (lambda (need) (/ need unit)) (%box-force box))
+                    :gravity (gravity-on box) :grip (contacts-grip candidate workspace))))
+    (dotimes (axis 6)
+      (dolist (way '(1d0 -1d0))
+        (let ((motion (make-six)))
+          (setf (aref motion axis) way)
+          (add-cut refining motion))))
+    (values refining unit)))
+
+(defun certify (refining placement)
+  "Return the exact radius of REFINING at PLACEMENT, (LOWER UPPER), certified within 0.1 % if possible, else
+1 %; LOWER is NIL if that is not possible either."
+  (let ((best nil))
+    (loop for gap in '(1d-3 1d-2)
+          do (multiple-value-bind (upper lower) (ask refining placement gap (* 0.2d0 gap) 30000)
+               (setf best (list lower upper))
+               (when lower (return))))
+    best))
+
+(defun better-places (refining before gap regions)
+  "Return a placement of REFINING that is surely better than the plan's, whose radius is BEFORE, or NIL;
+its radius; and the bound of all radii."
+  (let* ((freedom (r-freedom refining))
+         (start (or (make-legal (copy-seq (freedom-home freedom)) freedom)
+                    (freedom-home freedom))))
+    (multiple-value-bind (placement value)
+        (climb refining start (radius-at refining start -1d300))
+      (multiple-value-bind (placement value bound)
+          (branch-and-bound refining placement value gap regions)
+        (declare (ignore value))
+        (let ((after (certify refining placement)))
+          (values (and (first after) (> (first after) (max 0d0 (second before))) placement)
+                  after (max bound (second before) (second after))))))))
+
+(defun placed-contacts (contacts placement)
+  "Return CONTACTS, plists, at PLACEMENT."
+  (loop for contact in contacts
+        for place from 0 by 3
+        collect (list :surface (getf contact :surface)
+                      :position (coerce (subseq placement place (+ place 3)) 'list)
+                      :normal (getf contact :normal))))
+
+(defun refine-candidate (candidate plan gap regions)
+  "Return the REFINEMENT of CANDIDATE, a possible one of PLAN."
+  (with-replay (workspace candidate plan)
+    (let* ((home (candidate-contacts candidate plan))
+           (refinement (make-refinement :candidate candidate :plan plan :home home :contacts home)))
+      (when (refinable-p candidate workspace)
+        (multiple-value-bind (refining unit)
+            (start-refining candidate workspace (knowledge-graspbase (plan-knowledge plan)))
+          (flet ((in-units (radius) (mapcar (lambda (r) (and r (/ r unit))) radius)))
+            (let ((before (certify refining (freedom-home (r-freedom refining)))))
+              (multiple-value-bind (placement after bound)
+                  (better-places refining before gap regions)
+                (when placement
+                  (setf (refinement-contacts refinement) (placed-contacts home placement)))
+                (setf (refinement-radius-before refinement) (in-units before)
+                      (refinement-radius refinement) (in-units (if placement after before))
+                      (refinement-radius-bound refinement) (/ bound unit)))))))
+      refinement)))
+
+(defun refinable-p (candidate workspace)
+  "True if CANDIDATE, whose figures WORKSPACE holds, has an exact radius that can be computed."
+  (let ((box (workspace-box workspace)))
+    (and (some #'plusp (%box-force box))
+         (computable-p (contacts-grip candidate workspace) (gravity-on box)))))
+
+(defun refine (&optional (plan *plan*) &key (count 3) (gap 0.02d0) (regions 1000))
+  "Move the fingers of the COUNT best grasps of PLAN, so that their exact quality is as great as possible,
+and return the best REFINEMENT, or NIL if the plan has no grasp.  The second value is the list of all,
+the best first.
+
+The exact quality is Q with the exact radius (see EXACT-RADIUS) in the place of u_w; u_t, a judgement
+of the grasp, stays.  Fingers stay on their faces and within what hand and faces allow.  They move only
+where the new places are surely better: the certified radius there is above the upper value before.
+It looks for the best places until it has proved that none is better by more than GAP, or has looked at
+REGIONS of them."
+  (let* ((count (if (typep count '(integer 1)) count
+                    (refuse-argument "count is ~a; it is how many grasps to refine, 1 or more"
+                                     (form-text count))))
+         (possible (plan-possible (need-plan plan)))
+         (refinements (without-float-traps
+                        (loop repeat count
+                              for candidate in possible
+                              collect (refine-candidate candidate plan gap regions))))
+         (sorted (stable-sort refinements #'> :key #'refinement-quality)))
+    (values (first sorted) sorted)))
