@@ -59,6 +59,7 @@
                              (:file "why-not-rule")
                              (:file "how")
                              (:file "why-not-grasp")
+                             (:file "questions")
                              (:file "candidate-curves")
                              (:file "least-change")
                              (:file "choice")

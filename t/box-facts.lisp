@@ -86,8 +86,8 @@
              (said-of '(fragile (z9)) '(like (x1 x1)) '(like (z1 y1)) '(like (y1 z1))))))
 
 (test facts-that-nothing-declares-are-refused
-  (is (equal '("BOX: (FRAGLE (Z1)): no INPUT declares FRAGLE (did you mean FRAGILE?); to allow it, add (INPUT FRAGLE (S1)) to rules.lisp"
-               "BOX: (PARALLEL (Y2 Y1)): no INPUT declares PARALLEL; to allow it, add (INPUT PARALLEL (S1 S2)) to rules.lisp"
+  (is (equal '("BOX: (FRAGLE (Z1)): no INPUT declares FRAGLE (did you mean FRAGILE?); to allow it, add (INPUT FRAGLE (S1)) to rules.lisp, or type (edit '(INPUT FRAGLE (S1)))"
+               "BOX: (PARALLEL (Y2 Y1)): no INPUT declares PARALLEL; to allow it, add (INPUT PARALLEL (S1 S2)) to rules.lisp, or type (edit '(INPUT PARALLEL (S1 S2)))"
                "BOX: (LIKE (Z1)): LIKE takes 2 faces, as (INPUT LIKE (S1 S2)) in rules.lisp says; here it has 1"
                "BOX: (WET (Z1)): WET takes no faces, as (INPUT WET) in rules.lisp says; here it has 1"
                "BOX: (NARROW (Y2 Y1)): NARROW is no fact of a box's own: the other keys, and the gripper, decide it")

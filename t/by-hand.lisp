@@ -3,12 +3,6 @@
 (in-package :supergrip-test)
 (define-suite by-hand "TRY and KEEP, typed: one TRY for rules and for users.")
 
-(defmacro with-session ((&optional (box '(paper-box))) &body body)
-  "Run BODY with BOX as the current box, no plan yet, and edits taken back after it."
-  `(with-knowledge-restored
-     (let ((supergrip::*box* (supergrip:parse-box ,box)) (supergrip:*plan* nil))
-       ,@body)))
-
 (defun names-and-matchings (candidates)
   (loop for candidate in candidates
         collect (cons (supergrip:candidate-grasp candidate)
@@ -36,7 +30,8 @@
       (is (equal "  (PINCH-3-CORNER FAILS AT OPEN, MATCHING: (Z1 Z2 X2 X1 Y2 Y1)): open: the contacts don't close on this shape; needs u > 0.9864, has 0.8"
                  (first (printed (supergrip:try 'pinch-3-corner))))))
     (let ((failed '()))
-      (is (equal '() (printed (setf failed (supergrip:try 'pinch-3-corner)))))
+      (is (equal '("(PINCH-3-CORNER IS NOT O.K., NEAREST MATCHING: (Z1 Z2 X2 X1 Y2 Y1): open: the contacts don't close on this shape; needs u > 0.9864, has 0.8)")
+                 (printed (setf failed (supergrip:try 'pinch-3-corner)))))
       (is (equal '(:open :open) (mapcar #'supergrip:candidate-outcome failed))))
     (is (equal '("(BEST GRASP IS PINCH-3-PARALLEL WITH MATCHING (Y2 Y1 X2 X1 Z2 Z1))"
                  "(THE QUALITY INDEX IS 0.86)")
@@ -136,6 +131,12 @@
              pinch-3-u-shape (x1))
             ("no matching has (X1 Y1 ? ? ? ?): N O A must be a proper rotation of X Y Z, N1 opposite N2, and so on"
              pinch-3-u-shape (x1 y1 ? ? ? ?))
+            ("the six faces go in one list: (try 'PINCH-3-U-SHAPE '(Y2 Y1 X2 X1 Z2 Z1))"
+             pinch-3-u-shape y2 y1 x2 x1 z2 z1)
+            ("the six faces go in one list: (try 'PINCH-3-U-SHAPE '(? X2 ? ? ? ?))"
+             pinch-3-u-shape ? "x2" :gamma 1)
+            ("0.3 is not a key of TRY: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :STREAM; a value goes after its key, as in (try 'pinch-3-parallel :gamma 0.3)"
+             pinch-3-u-shape nil 0.3)
             ("TRACE is not a key of TRY: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :STREAM"
              pinch-3-u-shape nil :trace 3)
             ("there is no value after the key :GAMMA of TRY" pinch-3-u-shape :gamma))
@@ -151,7 +152,8 @@
 
 (test where-nothing-is-possible-keep-says-why
   (with-session ((changed-box :constrained 'y1 'y2 'z1 'z2 'x1))
-    (is (null (supergrip:try 'pinch-3-parallel)))
+    (is (equal '("(PINCH-3-PARALLEL IS NOT O.K.: EVERY MATCHING ASKED FOR WOULD USE A CONSTRAINED FACE)")
+               (printed (is (null (supergrip:try 'pinch-3-parallel))))))
     (is (equal '("(CANT GRASP: WHAT WAS TRIED WOULD USE A CONSTRAINED FACE)")
                (printed (is (null (supergrip:keep 'best))))))
     (is (equal "RULE GRIP9 did not run: PINCH-3-PARALLEL was tried without rules."
@@ -184,8 +186,9 @@
                           (is (equal (figures (supergrip:plan-candidates plan))
                                      (figures (supergrip:try grasp suggestion :box box)))))))
             (incf tried (length (supergrip:plan-candidates plan)))
-            (is (equal lines (butlast (lines-of (transcript plan))
-                                      (if (supergrip:plan-best plan) 3 2))))))))
+            (when (supergrip:plan-best plan)
+              (is (equal lines (butlast (lines-of (transcript plan))
+                                        3))))))))
     (is (< 400 tried))))
 
 (test an-unfinished-run-is-no-verdict

@@ -39,6 +39,29 @@
     (signals supergrip:no-rule-error
       (supergrip:edit '(rule early (if (slippery)) (then (cant do))) :before 'grip99))))
 
+(test names-in-an-edit-may-be-strings
+  (with-knowledge-restored
+    (handler-bind ((supergrip:knowledge-warning #'muffle-warning))
+      (supergrip:edit '(input "fragile" ("s1")))
+      (supergrip:edit '("input" "very dry")))
+    (is (equal '((("FRAGILE") 1) (("VERY" "DRY") 0))
+               (supergrip:declared-inputs supergrip:*knowledge*)))
+    (supergrip:edit '("rule" "grip12" ("if" ("parallel" ("s1" "s2")) ("fragile" ("s1")) ("not very dry"))
+                      ("then" ("try" "pinch-2-parallel" ("s1" "s2" "?" "?" "?" "?")))))
+    (is (equal "(RULE GRIP12 (IF (PARALLEL (S1 S2)) (FRAGILE (S1)) (NOT VERY DRY)) (THEN (TRY PINCH-2-PARALLEL (S1 S2 ? ? ? ?))))"
+               (supergrip-data:form-text
+                (supergrip-chainer:rule-form
+                 (find "GRIP12" (supergrip:knowledge-rules supergrip:*knowledge*)
+                       :key #'supergrip-chainer:rule-name :test #'string=)))))))
+
+(test a-refused-declaration-is-told-of-once
+  (loop for (form . text)
+          in '(((input dry 3) . "INPUT DRY: (INPUT DRY 3): a sentence is made of words, and may end in one list of surfaces")
+               ((input fragile (z1)) . "INPUT FRAGILE: a declaration holds for all surfaces: (INPUT FRAGILE (S1))")
+               ((input not dry) . "INPUT NOT DRY: a negation can't be declared: what the input does not say is false"))
+        do (is (equal (list text "The knowledge in force stays as it was.")
+                      (lines-of (error-text (supergrip:edit form)))))))
+
 (test rules-and-grasps-are-forgotten
   (let ((before supergrip:*knowledge*) (rules (rule-total)) (grasps (grasp-total)))
     (with-knowledge-restored

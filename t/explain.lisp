@@ -73,6 +73,29 @@
 
 ;;; WHY-NOT, grasps: each of the lower level's reasons
 
+(test how-and-why-not-answer-for-each-other
+  (let ((supergrip:*plan* (pencil-plan)))
+    (dolist (name '(grip8 grip4 pinch-2-parallel pinch-3-parallel pinch-3-corner))
+      (is (equal (printed (supergrip:why-not name)) (printed (supergrip:how name)))))
+    (is (equal '("PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1): it is the best grasp." "Ask (explain-best) why.")
+               (printed (supergrip:how 'pinch-3-parallel))))
+    (dolist (fact '((parallel (y2 y1)) (adjacent (z1 y2) (z1 y1))))
+      (is (equal (cons "That is so; this is how:" (printed (supergrip:how fact)))
+                 (printed (supergrip:why-not fact)))))
+    (dolist (fact '(slippery "slippery" (slippery)))
+      (is (equal '("(SLIPPERY) is not known." "It is an input, which this box does not give.")
+                 (printed (supergrip:how fact))))
+      (is (equal (printed (supergrip:how fact)) (printed (supergrip:why-not fact)))))
+    (is (search "GRIP99 is not a fact" (error-text (supergrip:how 'grip99))))
+    (is (search "there is no rule or grasp GRIP99" (error-text (supergrip:why-not 'grip99))))))
+
+(test why-not-wants-its-faces-in-a-list
+  (let ((supergrip:*plan* (pencil-plan)))
+    (is (equal "the six faces go in one list: (why-not 'PINCH-3-PARALLEL '(Y2 Y1 X2 X1 Z2 Z1))"
+               (error-text (supergrip:why-not 'pinch-3-parallel 'y2 'y1 'x2 'x1 'z2 'z1))))
+    (is (equal "WHY-NOT takes a name, a list of six faces, and a plan; 3, 4 is too much"
+               (error-text (supergrip:why-not 'grip8 nil supergrip:*plan* 3 4))))))
+
 (test why-not-tells-each-lower-level-reason
   (let ((pencil (pencil-plan)))
     (loop for (plan grasp matching line) in

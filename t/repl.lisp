@@ -99,6 +99,15 @@
     (loop for (text function . arguments) in
           `(("RULES is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :STREAM, :TRACE, :STEP"
              supergrip:forward-chain :box ,(paper-box) rules 3)
+            ("0.3 is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :STREAM, :TRACE, :STEP; a value goes after its key, as in (forward-chain box :gamma 0.3)"
+             supergrip:forward-chain ,(paper-box) 0.3)
+            ("there is no value after the key :GAMMA of FORWARD-CHAIN" supergrip:forward-chain :gamma)
+            ("GRIP8 is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force; (describe-rule name) shows one rule"
+             supergrip:rules grip8)
+            ("PINCH-2-PARALLEL is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force; (grasp name) shows one grasp"
+             supergrip:grasps pinch-2-parallel)
+            ("FINGER-DIST is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force; (getf (gripper) name) gives one dimension"
+             supergrip:gripper finger-dist)
             ("GRASPS is not a stream that can be printed to"
              supergrip:forward-chain ,(paper-box) :stream grasps)
             ("3 is not a stream that can be printed to" supergrip:write-transcript ,plan 3)
@@ -162,6 +171,59 @@
     (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp)) "then it is the plan")
     (is (equal '("RULE GRIP4 did not fire: clause 1, (OBJECT HAS NO PARALLEL SURFACES), fails.")
                (subseq (printed (supergrip:why-not 'grip4)) 0 1)))))
+
+(defun warning-of (function)
+  "Return the text of the first warning of FUNCTION, or NIL."
+  (handler-case (let ((*standard-output* (make-broadcast-stream)))
+                  (funcall function)
+                  nil)
+    (warning (condition) (princ-to-string condition))))
+
+(test what-is-outdated-is-told-of
+  (with-session ()
+    (flet ((told (text)
+             (loop for question in (list (lambda () (supergrip:how '(parallel (y2 y1))))
+                                         (lambda () (supergrip:why-not 'grip8))
+                                         #'supergrip:explain-best #'supergrip:possible-grasps
+                                         #'supergrip:assertions #'supergrip:rule-counts
+                                         #'supergrip:plan-grasp
+                                         (lambda () (supergrip:requires 'grip8))
+                                         (lambda () (supergrip:keep 'best))
+                                         (lambda () (eval-in-user "possible-grasps")))
+                   do (is (equal text (warning-of question))))))
+      (supergrip:forward-chain :stream nil)
+      (told nil)
+      (setf (supergrip::current-box) (changed-box :weight 0.3d0))
+      (told "the box changed after this plan was made; (forward-chain) makes a new one")
+      (is (null (warning-of (lambda () (supergrip:why-not 'grip8 nil supergrip:*plan*)))))
+      (setf (supergrip::current-box) (paper-box))
+      (told nil)
+      (supergrip:edit '(setq finger-length 3.1))
+      (setf (supergrip::current-box) (changed-box :weight 0.3d0))
+      (told "the box and the knowledge changed after this plan was made; (forward-chain) makes a new one")
+      (supergrip:try 'pinch-3-parallel :stream nil)
+      (told nil)
+      (let ((supergrip:*gamma* 1))
+        (told "gamma changed after this plan was made; (try ...) makes a new one"))
+      (supergrip:forward-chain (paper-box) :gamma 0.3 :stream nil)
+      (told nil))))
+
+(test reports-are-not-cut
+  (let ((*print-length* 2) (*print-level* 1) (*print-lines* 1) (*print-right-margin* 20)
+        (*print-pretty* t) (*print-base* 2) (*print-case* :downcase))
+    (dolist (class '(supergrip:argument-error supergrip:box-error supergrip:knowledge-error
+                     supergrip:no-grasp-error supergrip:no-rule-error supergrip:no-fact-error
+                     supergrip:gamma-error supergrip:no-plan-error))
+      (is (subtypep class 'supergrip:supergrip-error)))
+    (with-session ()
+      (is (equal "there is no grasp PINCH-9; grasps are PINCH-2-PARALLEL, PINCH-3-PARALLEL, PINCH-3-U-SHAPE, PINCH-3-C-SHAPE, PINCH-2-ADJACENT, PINCH-3-ADJACENT, PINCH-3-CORNER"
+                 (error-text (supergrip:try 'pinch-9))))
+      (is (search "GRIP11, PINCH-2-PARALLEL" (progn (supergrip:forward-chain :stream nil)
+                                                   (error-text (supergrip:why-not 'grip99)))))
+      (setf (supergrip::current-box) (changed-box :weight 0.3d0))
+      (is (equal "the box changed after this plan was made; (forward-chain) makes a new one"
+                 (warning-of #'supergrip:plan-grasp)))
+      (is (= 6 (length (lines-of (error-text (supergrip:parse-box '((size 1) (weight 1)))))))))))
 
 (test a-box-that-is-refused-leaves-the-current-one
   (let ((former (supergrip::current-box)))

@@ -207,6 +207,23 @@ often tie."
 (defun required-lines (what &optional (plan (pencil-plan)))
   (printed (supergrip:requires what plan)))
 
+(test of-equal-dimensions-the-one-that-decides-is-named
+  (with-knowledge-restored
+    (supergrip:edit '(setq gripper '(palm-depth 12 finger-length 3.2 finger-dist 6.05 finger-spread 1.7375
+                                    finger-width 0.3 nail 0.3 dist-pinch 12 width-hand 8 reach-u 4.85
+                                    reach-c 4.825 slippery-u 0.1)))
+    (loop for (what . line)
+            in '(((large (z1 z2)) . "  the size along Z: 12, not 2 (no less than DIST-PINCH, 12)")
+                 ((small (y1 y2)) . "  the size along Y: 0.299, not 2 (less than FINGER-WIDTH, 0.3)"))
+          do (is (equal line (second (required-lines what)))))
+    (supergrip:edit '(setq pinch-2-adjacent
+                      '(used-surfaces (n1 n2 a2) conditions ((dist '(n1 n2)) > 8)
+                        offset (0 0 0 0 0 0) wrench (1 1 1 1 1 1) twist (1 1 1 1 1 1))))
+    (supergrip:edit '(rule grip12 (if (opposed (s1 s2))) (then (try pinch-2-adjacent))))
+    (is (equal "  the size along Y: 8.01, not 2; then PINCH-2-ADJACENT (Y2 Y1 X2 X1 Z2 Z1)"
+               (second (required-lines 'pinch-2-adjacent)))
+        "a form may hold the value of a dimension")))
+
 (test requires-tells-the-least-changes
   (loop for (what . lines) in
         '(((small (y2 y1)) "(SMALL (Y2 Y1)) would hold with one of these changes:"

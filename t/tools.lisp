@@ -154,6 +154,12 @@ pairs of what the scan has and what is read."
   `(let ((supergrip:*knowledge* supergrip:*knowledge*))
      ,@body))
 
+(defmacro with-session ((&optional (box '(paper-box))) &body body)
+  "Run BODY with BOX as the current box, no plan yet, and edits taken back after it."
+  `(with-knowledge-restored
+     (let ((supergrip::*box* (supergrip:parse-box ,box)) (supergrip:*plan* nil))
+       ,@body)))
+
 (defun text-file (text name)
   "Return the data file that holds TEXT."
   (handler-case

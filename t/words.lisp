@@ -124,6 +124,19 @@
       (is (equal (supergrip:grasp 'pinch-2-parallel) (supergrip:grasp 'variable-of-the-user)))
       (is (equal (supergrip:grasp 'pinch-2-parallel) (supergrip:grasp 'list))))))
 
+(test what-is-not-quoted-is-understood-or-told-of
+  (with-session ()
+    (let ((quoted (printed (eval-in-user "(progn (try 'pinch-3-parallel) (keep 'best))"))))
+      (is (equal quoted (printed (eval-in-user "(progn (try pinch-3-parallel) (keep best))"))))
+      (is (equal "WORST can't be kept: what can be is the best, (keep 'best)"
+                 (error-text (eval-in-user "(let ((best 'worst)) (keep best))")))))
+    (loop for (text . typed)
+            in '(("the quote is missing: write '(Y2 Y1 X2 X1 Z2 Z1)"
+                  . "(try 'pinch-3-parallel (y2 y1 x2 x1 z2 z1))")
+                 ("the quote is missing: write '(? X2 Y2 Y1 ? Z1)"
+                  . "(why-not 'pinch-3-u-shape (? x2 y2 y1 ? z1))"))
+          do (is (equal text (error-text (eval-in-user typed)))))))
+
 (test words-that-only-show-can-not-be-set
   (let ((before supergrip:*knowledge*))
     (dolist (word '("possible-grasps" "assertions" "rules" "grasps"))

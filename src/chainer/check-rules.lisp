@@ -165,7 +165,7 @@ INPUTS are the predicates that the input always provides, as in BUILD-RULEBASE."
     (dolist (test tests)
       (setf (gethash (use-words test) tested) t))
     (dolist (use declared)
-      (unless (or (use-negated use) (gethash (use-words use) tested))
+      (unless (or (refused-p (use-name use)) (gethash (use-words use) tested))
         (let ((*subject* (use-name use)) (*place* nil))
           (complain (use-form use) '(:warning "no rule tests it")))))))
 

@@ -197,6 +197,12 @@ if enough was told already."
      (let ((value (plainly ,@body)))
        (values value (reverse (report-problems *report*))))))
 
+(defun refused-p (subject)
+  "True if an error of SUBJECT was complained of."
+  (find-if (lambda (problem)
+             (and (eq (problem-severity problem) :error) (equal (problem-subject problem) subject)))
+           (report-problems *report*)))
+
 (defun warnings-in (problems)
   "Return those of PROBLEMS that are warnings."
   (remove :warning problems :key #'problem-severity :test-not #'eq))

@@ -11,7 +11,7 @@ in them.")
    #:problem-subject #:problem-place #:problem-text
    #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
    #:*places* #:form-file #:form-line
-   #:make-problem #:errors-in #:warnings-in #:suggestion
+   #:errors-in #:warnings-in #:refused-p #:suggestion
    ;; SBCL itself
    #:backquote-p #:take-from #:give-to #:keep-in #:double-bits #:with-plain-floats #:without-float-traps #:global-name-p
    #:seeded-state #:define-typed-word #:typed-name

@@ -117,21 +117,24 @@ name of the file to declare them in."
     (nth-value 1 (with-problems
                    (dolist (fact (%box-facts box))
                      (unless (fact-predicate fact rulebase)
-                       (refuse-undeclared fact rulebase rules)))))))
+                       (refuse-undeclared fact rulebase rules
+                                          (and (eq *notation* :lisp) (null (%box-line box))))))))))
 
-(defun refuse-undeclared (fact rulebase rules)
-  "Complain of FACT, which RULEBASE, of the file RULES, does not declare."
+(defun refuse-undeclared (fact rulebase rules typed)
+  "Complain of FACT, which RULEBASE, of the file RULES, does not declare, and which was TYPED or read."
   (let* ((words (cut-text (box-fact-words fact)))
          (count (face-list-count (box-fact-face-list fact)))
          (text (value-text *notation* (fact-list fact #'canonical-name)))
          (predicate (find-predicate rulebase (list (box-fact-words fact))))
          (spot (box-fact-spot fact)))
     (cond ((or (null predicate) (null (predicate-given predicate)))
-           (complain spot "~a: no INPUT declares ~a~a; to allow it, add ~a to ~a" text words
+           (complain spot "~a: no INPUT declares ~a~a; to allow it, add ~a to ~a~@[, or type (edit '~a)~]"
+                     text words
                      (suggestion words (map 'list #'predicate-text
                                             (remove-if-not #'declared-p
                                                            (rulebase-predicates rulebase))))
-                     (input-line words count) rules))
+                     (input-line words count) rules
+                     (and typed (input-line words count))))
           ((declared-p predicate)
            (complain spot "~a: ~a takes ~[no faces~;1 face~:;~:*~d faces~], as ~a in ~a says; here ~
                            it has ~[none~:;~:*~d~]"

@@ -188,16 +188,16 @@ X Y Z."
 
 ;;; The best one of a plan
 
-(defun plan-grasp (&optional (plan *plan*))
+(defun plan-grasp (&optional (plan (last-plan)))
   "Return the name of the best grasp of PLAN, a string, or NIL."
   (and (plan-best (need-plan plan)) (candidate-grasp (plan-best plan))))
 
-(defun plan-matching (&optional (plan *plan*))
+(defun plan-matching (&optional (plan (last-plan)))
   "Return the matching of the best grasp of PLAN: the names of the faces that N1 N2 O1 O2 A1 A2
 take; or NIL."
   (and (plan-best (need-plan plan)) (candidate-matching (plan-best plan))))
 
-(defun plan-quality (&optional (plan *plan*))
+(defun plan-quality (&optional (plan (last-plan)))
   "Return the quality index of the best grasp of PLAN, a double, or NIL."
   (and (plan-best (need-plan plan)) (candidate-quality (plan-best plan))))
 

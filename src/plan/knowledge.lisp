@@ -77,6 +77,33 @@ What is wrong is left out."
                         problems)))
       (values (assemble (car bases) (cdr bases) rule-file grasp-file problems) problems))))
 
+;;; Knowledge with a change
+
+(defun edited-file (file edit)
+  "Return the data file FILE with the forms that EDIT, a function, makes of its own."
+  (let ((copy (copy-data-file file)))
+    (setf (data-file-forms copy) (funcall edit (data-file-forms file)))
+    copy))
+
+(defun with-dimension (name value forms)
+  "Return FORMS, those of a grasp file, with VALUE for the dimension NAME of its gripper."
+  (flet ((changed (form)
+           (let ((list (flat-list (second (third form)))))
+             `(,(first form) ,(second form)
+               (:quote ,(loop for (key old) on list by #'cddr
+                              collect key
+                              collect (if (name= key name) value old)))))))
+    (loop for form in forms
+          collect (if (gripper-form-p form) (changed form) form))))
+
+(defun knowledge-with-dimension (knowledge name value)
+  "Return KNOWLEDGE with VALUE for the dimension NAME of the gripper, or NIL if that is not valid."
+  (multiple-value-bind (changed problems)
+      (build-knowledge (knowledge-rule-file knowledge)
+                       (edited-file (knowledge-grasp-file knowledge)
+                                    (lambda (forms) (with-dimension name value forms))))
+    (and (null (errors-in problems)) changed)))
+
 ;;; What can't be meant
 
 (defun check-knowledge (graspbase rulebase rule-file grasp-file)

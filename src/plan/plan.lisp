@@ -28,12 +28,47 @@
                    (write-string "there is no plan yet: call (forward-chain) first" stream)))))
   (:documentation "A question about a plan was asked before there was one, or of something else."))
 
-(defun check-knowledge-argument (object)
-  "Return OBJECT if it is knowledge."
+(defvar *made-in* '()
+  "The plan that was made last, and what was in force then: the box, the knowledge and gamma.")
+
+(defun make-last (plan)
+  "Make PLAN the one that questions are about."
+  (setf *made-in* (list plan *box* *knowledge* *gamma*)
+        *plan* plan))
+
+(define-condition outdated-plan (warning)
+  ((changed :initarg :changed) (by-hand :initarg :by-hand))
+  (:report (lambda (condition stream)
+             (with-slots (changed by-hand) condition
+               (format stream "~{~a~^ and ~} changed after this plan was made; ~:[(forward-chain)~;~
+                               (try ...)~] makes a new one" changed by-hand))))
+  (:documentation "A question was asked about *PLAN*, but the box, the knowledge or gamma is not any more
+what it was when that was made."))
+
+(defun changed-since (plan)
+  "Return what is not any more as it was when PLAN, the last one, was made, nor as in PLAN: texts."
+  (destructuring-bind (&optional last box knowledge gamma) *made-in*
+    (and last (eq plan last)
+         (loop for (name now . thens) in `(("the box" ,*box* ,box ,(plan-box plan))
+                                           ("the knowledge" ,*knowledge* ,knowledge
+                                                            ,(plan-knowledge plan))
+                                           ("gamma" ,*gamma* ,gamma ,(plan-gamma plan)))
+               unless (member now thens :test (if (knowledge-p now) #'eq #'equalp))
+                 collect name))))
+
+(defun last-plan ()
+  "Return *PLAN*, what questions are about if no other is given.  Warns if it is outdated."
+  (let ((changed (and (plan-p *plan*) (changed-since *plan*))))
+    (when changed
+      (warn 'outdated-plan :changed changed :by-hand (plan-tries *plan*)))
+    *plan*))
+
+(defun check-knowledge-argument (object &optional instead)
+  "Return OBJECT if it is knowledge.  INSTEAD says what else may have been meant."
   (if (knowledge-p object)
       object
-      (refuse-argument "~a is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force"
-                       (form-text object))))
+      (refuse-argument "~a is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force~@[; ~a~]"
+                       (form-text object) instead)))
 
 (defun name-of (designator)
   "Return the name that DESIGNATOR, a symbol of any package, a string in any case, a rule, a grasp, the
@@ -239,21 +274,21 @@ Rules that end without KEEP or CANT keep the best."
                              velocities alone" (form-text (gamma-error-gamma condition)))))
   (:documentation "The selection parameter is no number from 0 to 1."))
 
-(defun plan-verdict (&optional (plan *plan*))
+(defun plan-verdict (&optional (plan (last-plan)))
   "Return :GRASP if PLAN found a grasp, :CANT if the box can't be grasped, :UNFINISHED if PLAN is of a
 run that stands at a break or a step; its best grasp is then the best so far."
   (cond ((unfinished-p (need-plan plan)) :unfinished)
         ((plan-best plan) :grasp)
         (t :cant)))
 
-(defun plan-candidates (&optional (plan *plan*))
+(defun plan-candidates (&optional (plan (last-plan)))
   "Return the candidates of PLAN, a new list, in the order in which they were tried."
   (loop for entry in (plan-entries (need-plan plan)) when (candidate-p entry) collect entry))
 
 (defun possible-p (candidate)
   (eq (%candidate-outcome candidate) :possible))
 
-(defun plan-possible (&optional (plan *plan*))
+(defun plan-possible (&optional (plan (last-plan)))
   "Return the possible grasps of PLAN, candidates, the best first; equals as they were tried."
   ;; STABLE-SORT destroys its list: it gets one that nobody else holds.
   (stable-sort (loop for candidate in (plan-candidates plan)
@@ -268,11 +303,11 @@ None if the box can't be grasped."
          (let ((grasps (cons best (remove best (plan-possible plan)))))
            (subseq grasps 0 (and most (min most (length grasps))))))))
 
-(defun plan-rejected (&optional (plan *plan*))
+(defun plan-rejected (&optional (plan (last-plan)))
   "Return the candidates of PLAN that failed, in the order in which they were tried."
   (remove-if #'possible-p (plan-candidates plan)))
 
-(defun plan-assertions (&optional (plan *plan*))
+(defun plan-assertions (&optional (plan (last-plan)))
   "Return the assertions at the end of PLAN: a list a predicate, its words followed by its lists of
 surfaces, all strings."
   (supergrip-chainer:assertions (plan-memory (need-plan plan))

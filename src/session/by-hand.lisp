@@ -53,12 +53,14 @@ box; what was tried again is in it once.  BOX is by default what (setq box ...) 
 as for FORWARD-CHAIN.  Signals a NO-GRASP-ERROR, a NO-BOX-ERROR or an ARGUMENT-ERROR.
 
 Source: the paper, Low-level System."
+  (check-listed arguments 'try name)
   (multiple-value-bind (suggestion keys)
       (if (keywordp (first arguments))
           (values nil arguments)
           (values (first arguments) (rest arguments)))
     (apply #'try-by-hand name suggestion
-           (checked-keys keys 'try '(:box :knowledge :gamma :index :stream)))))
+           (checked-keys keys 'try '(:box :knowledge :gamma :index :stream)
+                         "(try 'pinch-3-parallel :gamma 0.3)"))))
 
 (defun try-by-hand (name suggestion &key ((:box given) *box*) (knowledge *knowledge*)
                                       (gamma *gamma*) (index :paper)
@@ -77,12 +79,24 @@ Source: the paper, Low-level System."
                                  (logbitp (matching-index (%candidate-matching candidate)) set))
                                (candidates-of plan grasp))))
     (when stream
-      (plainly (dolist (candidate tried)
-                 (write-tried candidate plan (max 1 (check-trace-level *trace-level*)) nil stream))))
-    (setf *plan* plan)
+      (plainly (write-all-tried grasp tried plan stream)))
+    (make-last plan)
     tried))
 
-(defun keep (what &optional (plan *plan*))
+(defun write-all-tried (grasp tried plan stream)
+  "Write TRIED, the candidates of PLAN that trying GRASP gave; if none is possible, why."
+  (let ((level (max 1 (check-trace-level *trace-level*))))
+    (dolist (candidate tried)
+      (write-tried candidate plan level nil stream))
+    (when (notany #'candidate-quality tried)
+      (let ((miss (and tried (nearest-miss tried plan))))
+        (format stream "(~a IS NOT O.K.~@[, NEAREST MATCHING: (~{~a~^ ~})~]: ~a)~%" (grasp-name grasp)
+                (and miss (candidate-matching miss))
+                (if miss
+                    (miss-text miss plan)
+                    "EVERY MATCHING ASKED FOR WOULD USE A CONSTRAINED FACE"))))))
+
+(defun keep (what &optional (plan (last-plan)))
   "(KEEP 'BEST): print the paper's closing lines for what was tried in PLAN, by hand or by rules.
 Return the best candidate, NIL if none is possible."
   (unless (equal (name-of what) "BEST")

@@ -78,12 +78,6 @@ given, in a place of its own."
                (place (place-of-new form others before)))
           (append (subseq others 0 place) (list form) (nthcdr place others))))))
 
-(defun edited-file (file edit)
-  "Return the data file FILE with the forms that EDIT, a function, makes of its own."
-  (let ((copy (copy-data-file file)))
-    (setf (data-file-forms copy) (funcall edit (data-file-forms file)))
-    copy))
-
 ;;; Definitions
 
 (defun proper-list-p (object)
@@ -101,17 +95,6 @@ given, in a place of its own."
 (defun dimension-name-p (name)
   "True if NAME is that of a dimension of the gripper in force."
   (assoc name (knowledge-gripper *knowledge*) :test #'name=))
-
-(defun with-dimension (name value forms)
-  "Return FORMS, those of a grasp file, with VALUE for the dimension NAME of its gripper."
-  (flet ((changed (form)
-           (let ((list (flat-list (second (third form)))))
-             `(,(first form) ,(second form)
-               (:quote ,(loop for (key old) on list by #'cddr
-                              collect key
-                              collect (if (name= key name) value old)))))))
-    (loop for form in forms
-          collect (if (gripper-form-p form) (changed form) form))))
 
 (defun subject-of (name)
   "Return what NAME, which SETQ defines, is called in reports."
@@ -159,9 +142,17 @@ given, in a place of its own."
   "Return the name that FORM defines, as far as it has one."
   (and (consp form) (consp (rest form)) (second form)))
 
+(defun with-names-for-strings (form)
+  "Return FORM with the names that its strings spell in their place."
+  (if (consp form)
+      (loop for part in form
+            append (or (and (stringp part) (words-in part))
+                       (list (with-names-for-strings part))))
+      form))
+
 (defun canonical-definition (form)
-  "Return FORM as the data reader would have returned it.  Of what can't be read, the name of the
-grasp and the key are told."
+  "Return FORM as the data reader would have returned it, with names for strings.  Of what can't be read,
+the name of the grasp and the key are told."
   (handler-bind ((syntax-error
                    (lambda (condition)
                      (when (and (part-p form "SETQ") (proper-list-p form) (namep (second form)))
@@ -169,7 +160,8 @@ grasp and the key are told."
                          (setf (problem-subject problem) (subject-of (second form))
                                (problem-place problem)
                                (unreadable-key (quoted-form (third form)))))))))
-    (canonical form)))
+    (let ((form (canonical form)))
+      (if (part-p form "DEFUN") form (with-names-for-strings form)))))
 
 (defun edit (form &key before)
   "Put FORM, (RULE ...), (INPUT ...), (SETQ grasp '(...)), (SETQ GRIPPER '(...)), (SETQ dimension

@@ -24,15 +24,20 @@ ARGUMENTS are keys and values: :BOX a box or a description of one, by default wh
 gave, which may also stand first, without its key; :KNOWLEDGE, by default what is in force; :GAMMA
 weighs velocities (1) against forces (0); :INDEX is :PAPER or :EXACT (see PLAN); :STREAM is where to print, NIL for not at all; :TRACE says
 how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger before each rule."
-  (apply #'chain-box (checked-keys (if (oddp (length arguments)) (cons :box arguments) arguments)
-                                   'forward-chain '(:box :knowledge :gamma :index :stream :trace :step))))
+  (apply #'chain-box
+         (checked-keys (if (or (null arguments) (keywordp (first arguments)))
+                           arguments
+                           (cons :box arguments))
+                       'forward-chain '(:box :knowledge :gamma :index :stream :trace :step)
+                       "(forward-chain box :gamma 0.3)")))
 
-(defun checked-keys (arguments function keys)
-  "Return ARGUMENTS, keys and values for FUNCTION, if each key is one of KEYS."
+(defun checked-keys (arguments function keys example)
+  "Return ARGUMENTS, keys and values for FUNCTION, if each key is one of KEYS.  EXAMPLE is a right call."
   (loop for (key . rest) on arguments by #'cddr
         unless (member key keys)
-          do (refuse-argument "~a is not a key of ~a: keys are ~{:~a~^, ~}" (form-text key) function
-                              keys)
+          do (refuse-argument "~a is not a key of ~a: keys are ~{:~a~^, ~}~@[; a value goes after its key, ~
+                               as in ~a~]" (form-text key) function keys
+                              (and (not (namep key)) example))
         unless rest
           do (refuse-argument "there is no value after the key :~a of ~a" key function))
   arguments)
@@ -46,17 +51,17 @@ how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger bef
         (knowledge (check-knowledge-argument knowledge))
         (stream (output-stream stream)))
     (if (or step *traced* *breaks* (> level 1))
-        (setf *plan* (traced-plan given knowledge gamma index level step
-                                  (if (and stream (or (plusp level) *traced*))
-                                      stream
-                                      (make-broadcast-stream))))
+        (make-last (traced-plan given knowledge gamma index level step
+                                (if (and stream (or (plusp level) *traced*))
+                                    stream
+                                    (make-broadcast-stream))))
         (progn
-          (setf *plan* (plan given :knowledge knowledge :gamma gamma :index index))
+          (make-last (plan given :knowledge knowledge :gamma gamma :index index))
           (when (and stream (= level 1))
             (write-transcript *plan* stream))))
     *plan*))
 
-(defun possible-grasps (&optional (plan *plan*))
+(defun possible-grasps (&optional (plan (last-plan)))
   "Return the paper's list POSSIBLE-GRASPS of PLAN, the best first: for each possible grasp its
 name, its quality and its matching."
   (loop for candidate in (plan-possible (need-plan plan))

@@ -218,7 +218,7 @@ and the memory that the rules run on.  RUN-OBSERVED gets the other ARGUMENTS."
 
 ;;; Counts
 
-(defun rule-counts (&optional (plan *plan*))
+(defun rule-counts (&optional (plan (last-plan)))
   "Print and return how often each rule of PLAN was matched and fired: a list of (NAME MATCHES FIRINGS
 FACTS), empty if no rule ran.  MATCHES counts the bindings that met its first clause, its
 first two, and so on; FIRINGS its bindings; FACTS what it added."

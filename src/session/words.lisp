@@ -26,7 +26,7 @@ and that stands for NUMBER, or, if ROUNDED, is next to it; else NIL."
               (or rounded (= (as-double single) number))
               single))))
 
-(defun assertions (&optional (plan *plan*))
+(defun assertions (&optional (plan (last-plan)))
   "Return all that is known at the end of PLAN, or now if its run has stopped: a list a predicate,
 its words followed by its lists of faces, symbols of the current package.  PLAN-ASSERTIONS gives
 strings."
@@ -35,12 +35,16 @@ strings."
 (defun rules (&optional (knowledge *knowledge*))
   "Return the rules of KNOWLEDGE, in order, as (RULE name (IF ...) (THEN ...)), with the symbols of
 the current package.  KNOWLEDGE-RULES gives objects."
-  (as-typed (mapcar #'rule-form (knowledge-rules (check-knowledge-argument knowledge)))))
+  (as-typed (mapcar #'rule-form
+                    (knowledge-rules (check-knowledge-argument
+                                      knowledge "(describe-rule name) shows one rule")))))
 
 (defun grasps (&optional (knowledge *knowledge*))
   "Return the names of the grasps of KNOWLEDGE, in order, symbols of the current package.  GRASP gives
 what they stand for, KNOWLEDGE-GRASPS objects."
-  (as-typed (mapcar #'grasp-name (knowledge-grasps (check-knowledge-argument knowledge)))))
+  (as-typed (mapcar #'grasp-name
+                    (knowledge-grasps (check-knowledge-argument
+                                       knowledge "(grasp name) shows one grasp")))))
 
 (defun grasp (name &optional (knowledge *knowledge*))
   "Return the property list of the grasp NAME of KNOWLEDGE, (USED-SURFACES (N1 N2 A2) ...), with the
@@ -50,7 +54,8 @@ symbols of the current package.  Signals a NO-GRASP-ERROR."
 (defun gripper (&optional (knowledge *knowledge*))
   "Return the property list of the gripper of KNOWLEDGE, (FINGER-LENGTH 4 ...), in cm, with the
 symbols of the current package.  KNOWLEDGE-GRIPPER gives strings and doubles."
-  (let ((file (knowledge-grasp-file (check-knowledge-argument knowledge))))
+  (let ((file (knowledge-grasp-file (check-knowledge-argument
+                                     knowledge "(getf (gripper) name) gives one dimension"))))
     (as-typed (flat-list (nth-value 1 (definition-form (find-if #'gripper-form-p
                                                                 (data-file-forms file))))))))
 
@@ -91,7 +96,27 @@ them."
              `(setf ,@(loop for name in names
                             collect `(fdefinition ',(find-symbol (string name) :supergrip-user))
                             collect `#',name))))
-  (define-functions try keep possible-grasps assertions rules grasps grasp gripper))
+  (define-functions try possible-grasps assertions rules grasps grasp gripper))
 
 (mapc #'define-word '("POSSIBLE-GRASPS" "ASSERTIONS" "RULES" "GRASPS" "GRIPPER"))
 (define-grasp-words)
+
+;;; A quote that was forgotten
+
+(defmacro supergrip-user::keep (what &rest plan &environment environment)
+  "KEEP, but (KEEP BEST) means (KEEP 'BEST), as in a rule, if BEST is no variable."
+  `(keep ,(if (and (name= what "BEST") (global-name-p what environment '())) `',what what) ,@plan))
+
+(defun call-of-face (form environment)
+  "Return, as a macro does, what becomes of FORM, which begins with a face."
+  (declare (ignore environment))
+  `(refuse-argument "the quote is missing: write '~a" (form-text ',form)))
+
+(defun define-face-calls ()
+  "Let a list that begins with a face, or ?, say in SUPERGRIP-USER that its quote is missing."
+  (dolist (name '("?" "X1" "X2" "Y1" "Y2" "Z1" "Z2"))
+    (let ((symbol (intern name :supergrip-user)))
+      (unless (fboundp symbol)
+        (setf (macro-function symbol) #'call-of-face)))))
+
+(define-face-calls)

@@ -37,10 +37,14 @@
   (append (mapcar #'rule-name (knowledge-rules knowledge))
           (mapcar #'grasp-name (knowledge-grasps knowledge))))
 
+(defun known-name-p (name knowledge)
+  "True if KNOWLEDGE has a rule or a grasp NAME."
+  (or (find-rule (knowledge-rulebase knowledge) name)
+      (find-grasp (knowledge-graspbase knowledge) name)))
+
 (defun in-force-p (name)
   "True if the knowledge in force has a rule or a grasp NAME."
-  (or (find-rule (knowledge-rulebase *knowledge*) name)
-      (find-grasp (knowledge-graspbase *knowledge*) name)))
+  (known-name-p name *knowledge*))
 
 (defgeneric write-answer (answer stream)
   (:documentation "Write ANSWER, an explanation, to STREAM in words."))

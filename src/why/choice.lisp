@@ -118,7 +118,7 @@ EXACT-LIMIT.")
 
 ;;; The answer
 
-(defun explain-choice (&optional (plan *plan*))
+(defun explain-choice (&optional (plan (last-plan)))
   "Return the CHOICE on PLAN: why its best grasp is the best, and what would change the choice."
   (when (unfinished-p (need-plan plan))
     (refuse-argument "the run is not over, so there is no best grasp yet"))
@@ -140,7 +140,7 @@ EXACT-LIMIT.")
                    :changes (stable-sort changes #'< :key #'change-size)
                    :stepped stepped))))
 
-(defun explain-best (&optional (plan *plan*))
+(defun explain-best (&optional (plan (last-plan)))
   "Print and return why the best grasp of PLAN is the best: how it holds the box, what limits it, the
 runner-up, and which single need, friction or weight would have to change, and to what, for the
 choice to change."

@@ -254,7 +254,7 @@ with the figures.  NIL if it is possible."
              (too-wide-text candidate workspace))
         (failure-text (candidate-outcome candidate) (plan-index plan) candidate workspace))))
 
-(defun plan-reason (&optional (plan *plan*))
+(defun plan-reason (&optional (plan (last-plan)))
   "Return why the box of PLAN can't be grasped, a string: what the rule said, or the nearest miss.
 NIL if it can."
   (let* ((stop (plan-stop (need-plan plan)))

@@ -1,4 +1,4 @@
-;;;; how.lisp -- HOW: how a fact came to be known, or why it is not known.
+;;;; how.lisp -- how a fact came to be known, or why it is not known.
 
 (in-package :supergrip)
 
@@ -82,7 +82,7 @@ derived it did not, of many rules for the first; MORE is how many are left out."
 
 (defparameter +most-refusals+ 20 "Of how many rules an answer says why they did not fire.")
 
-(defun explain-fact (form &optional (plan *plan*))
+(defun explain-fact (form &optional (plan (last-plan)))
   "Return how the fact FORM came to be known in PLAN: a DERIVATION, or an UNKNOWN-FACT."
   (let ((plan (need-plan plan)))
     (multiple-value-bind (predicate face-list) (parse-fact form (plan-rulebase plan))
@@ -106,13 +106,9 @@ derived it did not, of many rules for the first; MORE is how many are left out."
               collect (append (remove-if #'consp form) (list list)))
         (list fact))))
 
-(defun how (fact &optional (plan *plan*))
-  "Print and return how FACT, as '(PARALLEL (Y2 Y1)), came to be known in PLAN: the tree of rules,
-bindings and facts down to the box; negations as assumed when they were tested.  Of a FACT with
-several lists of faces, as ASSERTIONS has them, return the list of the answers."
-  (let ((answers (loop for single in (single-facts fact) collect (explain-fact single plan))))
-    (mapc #'print-answer answers)
-    (if (rest answers) answers (first answers))))
+(defun explain-facts (fact plan)
+  "Return the list of the answers on FACT, which may have several lists of faces."
+  (loop for single in (single-facts fact) collect (explain-fact single plan)))
 
 (defmethod write-answer ((answer unknown-fact) stream)
   (format stream "~a is not known.~%"

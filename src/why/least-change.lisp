@@ -36,13 +36,12 @@ prospect or NIL; it is NIL itself if the test depends only on what is known of t
 
 ;;; Plans along a line
 
-(defun plan-like (plan box)
-  "Return the plan for BOX, made as PLAN was."
+(defun plan-like (plan box &optional (knowledge (plan-knowledge plan)))
+  "Return the plan for BOX, made as PLAN was, with KNOWLEDGE."
   (if (plan-tries plan)
-      (try-without-rules (plan-tries plan) box :knowledge (plan-knowledge plan)
+      (try-without-rules (plan-tries plan) box :knowledge knowledge
                                                :gamma (plan-gamma plan) :index (plan-index plan))
-      (plan box :knowledge (plan-knowledge plan) :gamma (plan-gamma plan)
-                :index (plan-index plan))))
+      (plan box :knowledge knowledge :gamma (plan-gamma plan) :index (plan-index plan))))
 
 (defun needs-something-p (box)
   (or (some #'plusp (%box-force box)) (some #'plusp (%box-velocity box))))
@@ -371,17 +370,26 @@ before."
             return (coerce value 'double-float)
           finally (return other))))
 
-(defun threshold-at (line place)
-  "Return how PLACE, where a change begins, stands to a dimension of the gripper that it is next
-to, the name of that and itself; or NIL."
+(defun threshold-at (line goal place)
+  "Return how PLACE, where GOAL becomes true, stands to the dimension of the gripper that decides it, the
+name of that and itself; or NIL."
   (let ((up (> place (line-from line))))
     (loop for (name . number) in (and (not (eq (box-key-type (line-row line)) :needs))
                                       (knowledge-gripper (plan-knowledge (line-plan line))))
-          do (cond ((zerop number))
-                   ((= place number)
-                    (return (list (if up "no less than" "no more than") name number)))
-                   ((= place (next-double number (if up 1 -1)))
-                    (return (list (if up "more than" "less than") name number)))))))
+          for relation = (cond ((zerop number) nil)
+                               ((= place number) (if up "no less than" "no more than"))
+                               ((= place (next-double number (if up 1 -1)))
+                                (if up "more than" "less than")))
+          when (and relation (decides-p name (* number (if up 1.000001d0 0.999999d0)) line goal place))
+            return (list relation name number))))
+
+(defun decides-p (name number line goal place)
+  "True if GOAL were not true at PLACE if the dimension NAME, there, were NUMBER, a little beyond it.
+Several dimensions may have one value, and a form may hold it, too."
+  (let* ((plan (line-plan line))
+         (knowledge (knowledge-with-dimension (plan-knowledge plan) name number)))
+    (and knowledge
+         (not (funcall (goal-test goal) (plan-like plan (line-box line place) knowledge))))))
 
 (defun find-change (line goal)
   "Return the CHANGE of what varies along LINE that is nearest to what it is, of those that make
@@ -399,7 +407,7 @@ GOAL true; NIL if none does."
              (box (line-box line to)))
         (make-change :what (value-name (line-row line) (line-index line)) :from from :to to :box box
                      :plan (plan-like (line-plan line) box) :limit place :size (abs (- place from))
-                     :threshold (threshold-at line place))))))
+                     :threshold (threshold-at line goal place))))))
 
 (defun line-end (plan goal row from)
   "Return how far a line of the key ROW goes that is FROM in PLAN: needs to 1, others to four

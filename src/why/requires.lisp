@@ -78,7 +78,7 @@ by that for its box: what is known of the box is the same."
 
 (defun require-grasp (grasp plan)
   (flet ((true-p (plan)
-           (and (plan-best plan) (eq grasp (%candidate-grasp (plan-best plan)))))
+           (equal (grasp-name grasp) (plan-grasp plan)))
          (winner-p (prospect) (and prospect (eq grasp (prospect-grasp prospect)))))
     (let ((answer (require-of plan :grasp (grasp-name grasp)
                               (make-goal :test #'true-p :winner #'winner-p))))
@@ -90,7 +90,7 @@ by that for its box: what is known of the box is the same."
                           (make-goal :test #'plan-best :winner #'identity))))
       answer)))
 
-(defun explain-requirement (what &optional (plan *plan*))
+(defun explain-requirement (what &optional (plan (last-plan)))
   "Return the REQUIREMENT of the box of PLAN for WHAT: a fact, as '(SMALL (Y2 Y1)), which may have
 NOT or NO among its words, or the name of a rule or a grasp, a symbol or a string."
   (let* ((given (need-plan plan))
@@ -106,7 +106,7 @@ NOT or NO among its words, or the name of a rule or a grasp, a symbol or a strin
                    (require-grasp grasp plan))
             (t (error 'no-rule-error :name what :known (known-names knowledge)))))))
 
-(defun requires (what &optional (plan *plan*))
+(defun requires (what &optional (plan (last-plan)))
   "Print and return the least changes of the box of PLAN with which WHAT would be so: a fact would
 hold, as '(SMALL (Y2 Y1)), a rule fire, or a grasp be the best.  Of one value, or of constrained
 faces."

@@ -29,6 +29,19 @@ TEXT is a sentence, PLAN the plan."
                       repeat 7 while (consp cell) collect (word-text (car cell)))))
     (and (= (length words) 6) (null (nthcdr 6 faces)) (notany #'null words) words)))
 
+(defun check-listed (arguments function name)
+  "Signal an ARGUMENT-ERROR if ARGUMENTS, those of FUNCTION after NAME, begin with a face: they go in a
+list."
+  (let ((faces (loop for argument in arguments
+                     for word = (word-text argument)
+                     while (and word (or (face-index word) (string= word "?")))
+                     repeat 6 collect word)))
+    (when faces
+      (refuse-argument "the six faces go in one list: (~(~a~) '~a '(~{~a~^ ~}~:[~; ~]~{~a~^ ~}))"
+                       function (or (name-of name) (form-text name)) faces
+                       (< (length faces) 6)
+                       (make-list (- 6 (length faces)) :initial-element "?")))))
+
 (defun parse-matching (faces)
   "Return the matching of FACES, six strings, or NIL."
   (let ((indices (mapcar #'face-index faces)))
@@ -144,7 +157,7 @@ TEXT is a sentence, PLAN the plan."
           ((or best miss) (explain-candidate (or best miss) plan))
           (t (not-tried grasp nil plan)))))
 
-(defun explain-why-not (name &optional matching (plan *plan*))
+(defun explain-why-not (name &optional matching (plan (last-plan)))
   "Return why the rule NAME did not fire in PLAN, a REFUSAL, or why the grasp NAME, in MATCHING (six
 faces) if that is given, was not chosen, a NOT-CHOSEN."
   (let* ((plan (need-plan plan))
@@ -174,20 +187,12 @@ faces) if that is given, was not chosen, a NOT-CHOSEN."
                                    (format nil "~a is not a matching: a matching is six faces, for N1 ~
                                                 N2 O1 O2 A1 A2" (form-text faces)))))))
 
-(defun why-not (name &optional matching (plan *plan*))
-  "Print and return why the rule NAME did not fire in PLAN, or why the grasp NAME was not chosen, in
-MATCHING, six faces, if that is given.  NAME is a symbol or a string; where it is a fact, the answer
-is HOW's.  PLAN may stand in the place of MATCHING."
-  (multiple-value-bind (matching plan)
-      (if (plan-p matching) (values nil matching) (values matching plan))
-    (if (fact-form-p name)
-        (how name plan)
-        (print-answer (explain-why-not name matching plan)))))
-
 (defmethod write-answer ((answer not-chosen) stream)
   (format stream "~a~@[ (~{~a~^ ~})~]: ~a.~%" (grasp-name (not-chosen-grasp answer))
           (and (not-chosen-matching answer) (matching-names (not-chosen-matching answer)))
           (not-chosen-text answer))
+  (when (eq (not-chosen-kind answer) :chosen)
+    (format stream "Ask (explain-best) why.~%"))
   (when (eq (not-chosen-kind answer) :not-tried)
     (write-refusals (not-chosen-refusals answer) (not-chosen-more answer) stream)
     (let ((candidates (not-chosen-candidates answer)) (plan (not-chosen-plan answer)))
