@@ -96,7 +96,15 @@
   :depends-on ("supergrip")
   :pathname "src/"
   :serial t
-  :components ((:module "batch"
+  :components ((:module "writers"
+                :serial t
+                :components ((:file "text")
+                             (:file "writers")
+                             (:file "isaac")
+                             (:file "moveit")
+                             (:file "graspgen")
+                             (:file "mjcf")))
+               (:module "batch"
                 :serial t
                 :components ((:file "system")
                              (:file "json")
@@ -254,7 +262,9 @@
                (:file "fuzzer")
                (:file "batch")
                (:file "main")
+               (:file "formats")
                (:file "documents")
+               (:static-file "formats.py")
                (:static-file "fuzz.lisp")
                (:static-file "run.lisp")
                (:static-file "alone"))

@@ -120,7 +120,8 @@
                                         :knowledge knowledge)
         for candidate = (first (supergrip:plan-possible plan))
         for hand = (supergrip:candidate-hand candidate plan)
-        do (is (close-to closing (in-grasp-frame (getf hand :closing) candidate)) "~a ~a" contacts palm)
+        do (is (close-to closing (in-grasp-frame (getf hand :closing) candidate)) "~a ~a" contacts
+               palm)
            (is (eq opens (and (getf hand :opening) t)) "~a ~a" contacts palm)
            (is (close-to (first (hand-axes hand)) (getf hand :closing)))))
 

@@ -46,7 +46,7 @@
 (test wrong-command-lines-give-64
   (loop for (report . options) in
         '(("there is no option --fromat (did you mean --format?)" "--fromat" "json")
-          ("--format is trace, sexp or json, not xml" "--format" "xml")
+          ("--format is trace, sexp, json, isaac, moveit or graspgen, not xml" "--format" "xml")
           ("--input is sexp or json, not trace" "--input=trace")
           ("--format needs a value" "--format")
           ("--rules needs the name of a file" "--rules" "")

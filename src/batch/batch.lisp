@@ -7,10 +7,11 @@
 
 (defstruct (batch (:constructor make-batch (knowledge gamma index notation format output)))
   "What records are made with, and how many were.  NOTATION is :LISP, :JSON or NIL, to tell from
-the input; FORMAT is :TRACE, :LISP, :JSON or NIL, as the input.  BAD counts the error records;
+the input; FORMAT is :TRACE, :LISP, :JSON, the name of a writer, or NIL, as the input.  BAD counts the error records;
 BROKEN is true if one of them was an internal error.  LAST, after an error record, whose box may go
 on, is the line where it ended, or :REST once it did go on.  PLANS holds the plans for a report, the
-latest first, if KEEP is true.  ALL says how many alternatives a record has, NIL for none."
+latest first, if KEEP is true.  ALL says how many alternatives a record has, NIL for none.
+MODELS says where a file of each box goes, if not NIL; LOST is true if one could not be written."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
   (index :paper :type keyword)
@@ -22,6 +23,7 @@ latest first, if KEEP is true.  ALL says how many alternatives a record has, NIL
   (last nil)
   (keep nil) (plans '() :type list)
   (all nil :type (or null fixnum))
+  (models nil) (lost nil)
   (after-record nil :type (or null function)))
 
 (defun run-batch (batch descriptor)
@@ -206,11 +208,12 @@ COLUMN, and ends in the line END."
       (when problems (incf (batch-bad batch)))
       (setf (batch-last batch) (and problems end))
       (when broken (setf (batch-broken batch) t))
-      (ecase (batch-format batch)
-        (:trace (put-box-line batch description line)
-         (put-text output result))
+      (case (batch-format batch)
         (:lisp (write-lisp-record result output))
-        (:json (write-json-record result output)))
+        (:json (write-json-record result output))
+        (t (when (eq (batch-format batch) :trace)
+             (put-box-line batch description line))
+           (put-text output result)))
       (incf (batch-done batch))
       (when (batch-after-record batch)
         (funcall (batch-after-record batch))))))
@@ -237,9 +240,12 @@ and whether they are ours."
                         :index (batch-index batch))))
         (when (batch-keep batch)
           (push plan (batch-plans batch)))
-        (if (eq (batch-format batch) :trace)
-            (with-output-to-string (out) (write-transcript plan out))
-            (plan-record plan :line line :all (batch-all batch))))
+        (when (batch-models batch)
+          (write-model batch plan line))
+        (case (batch-format batch)
+          (:trace (with-output-to-string (out) (write-transcript plan out)))
+          ((:lisp :json) (plan-record plan :line line :all (batch-all batch)))
+          (t (writer-result batch plan line))))
     (box-error (condition)
       (let ((problems (input-error-problems condition)))
         (dolist (problem problems)
@@ -252,14 +258,62 @@ and whether they are ours."
                                                 condition)))
               t))))
 
+(defun writer-result (batch plan line)
+  "Return what the writer that the format of BATCH names makes of PLAN, of the box in LINE."
+  (let ((writer (find-writer (batch-format batch))))
+    (unless (plan-best plan)
+      (tell-of-none (writer-kind writer) (box-name (plan-box plan)) line (plan-reason plan)))
+    (written-plan writer plan (batch-all batch))))
+
+(defun tell-of-none (kind name line reason)
+  "Say on standard error that the box NAME in LINE has no grasp for output called KIND, and why."
+  (tell "supergrip: line ~d~@[, ~s~]: no grasp for ~a: ~a" line name kind reason))
+
 (defun problem-result (batch description problems line)
   "Return the record, or the lines, of PROBLEMS."
-  (if (eq (batch-format batch) :trace)
-      (format nil "~{(BAD BOX: ~a)~%~}--END--~%"
-              (loop for problem in problems
-                    collect (visible-text (problem-reason problem))))
-      (error-record problems :name (description-name description) :line line
-                             :index (batch-index batch) :all (batch-all batch))))
+  (let ((name (description-name description)) (reason (problems-reason problems)))
+    (when (batch-models batch)
+      (tell-of-none +model-kind+ name line reason))
+    (case (batch-format batch)
+      (:trace (format nil "~{(BAD BOX: ~a)~%~}--END--~%"
+                      (loop for problem in problems
+                            collect (visible-text (problem-reason problem)))))
+      ((:lisp :json) (error-record problems :name name :line line :index (batch-index batch)
+                                            :all (batch-all batch)))
+      (t (let ((writer (find-writer (batch-format batch))))
+           (tell-of-none (writer-kind writer) name line reason)
+           (written-mistake writer name reason))))))
+
+;;; Files, one a box
+
+(defstruct (models (:constructor make-models (directory)))
+  "Where the models of the boxes of a run go: DIRECTORY, a string; NAMES has those of the files that are
+there already, without type."
+  (directory nil :type string :read-only t)
+  (names (make-hash-table :test #'equal) :read-only t))
+
+(defun new-stem (name models)
+  "Return the name of a file, without type, for the box NAME, a string or NIL: no other box of the run has
+it."
+  (let ((names (models-names models)) (stem (file-stem name)))
+    (loop for number from 1
+          for try = (if (= number 1) stem (format nil "~a-~d" stem number))
+          unless (gethash try names)
+            do (setf (gethash try names) t)
+               (return try))))
+
+(defun write-model (batch plan line)
+  "Write the model of the best grasp of PLAN, of the box in LINE, into a file of its own; or tell why
+there is none."
+  (let ((models (batch-models batch)) (name (box-name (plan-box plan))))
+    (if (null (plan-best plan))
+        (tell-of-none +model-kind+ name line (plan-reason plan))
+        (let ((file (format nil "~a/~a.xml" (string-right-trim "/" (models-directory models))
+                            (new-stem name models))))
+          (handler-case (write-file file (mjcf-text plan line))
+            (system-failure (condition)
+              (setf (batch-lost batch) t)
+              (tell "supergrip: ~a: ~a" file condition)))))))
 
 (defun description-name (description)
   "Return the name in DESCRIPTION, which need not be valid, or NIL."

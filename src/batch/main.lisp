@@ -4,14 +4,6 @@
 
 ;;; Standard error
 
-(defun tell (control &rest arguments)
-  "Write a line to standard error, if that can be done."
-  (let ((output (make-output 2)))
-    (handler-case (progn (put-visible output (apply #'format nil control arguments))
-                         (put-octet output 10)
-                         (flush-output output))
-      (system-failure () nil))))
-
 (defun follow-progress (batch)
   "Return a function, to be called after each record of BATCH, that shows on the terminal how far a
 run of more than two seconds has come."
@@ -110,6 +102,7 @@ given, and return the exit status."
           (push 74 statuses))))
     (when directory
       (push (unless-signalled (write-report batch directory)) statuses))
+    (when (batch-lost batch) (push 74 statuses))
     (when (plusp (batch-bad batch)) (push 65 statuses))
     (when (batch-broken batch) (push 70 statuses))
     (report-end batch)
@@ -160,6 +153,11 @@ report of what could not be drawn or written."
 (defun reportable-p (directory)
   "Return true if a report can be made and written into DIRECTORY, a string; tell why, if not."
   (reporter)
+  (directory-ready-p directory))
+
+(defun directory-ready-p (directory)
+  "Return true if files can be written into DIRECTORY, a string, made if it is not there; tell why, if
+not."
   (handler-case (progn (make-directories directory)
                        (check-writable directory)
                        t)
@@ -202,12 +200,14 @@ report of what could not be drawn or written."
            (check-and-verify knowledge (getf options :gamma *gamma*)))
           ((getf options :check) (check knowledge))
           ((and (getf options :report) (not (reportable-p (getf options :report)))) 74)
+          ((and (getf options :mjcf) (not (directory-ready-p (getf options :mjcf)))) 74)
           (t
            (let ((batch (make-batch knowledge (check-gamma (getf options :gamma *gamma*))
                                     (getf options :index :paper)
                                     (getf options :input) (getf options :format)
                                     (make-output 1)))
-                 (*certified* (getf options :all 1))
+                 (*certified* (getf options :all
+                                    (if (find-writer (getf options :format)) most-positive-fixnum 1)))
                  (*depth-limit* (getf options :depth-limit *depth-limit*))
                  (*record-limit* (room-for (getf options :record-limit *record-limit*)))
                  (*number-limit* (getf options :number-limit *number-limit*))
@@ -215,7 +215,8 @@ report of what could not be drawn or written."
              (when (terminal-p 2)
                (setf (batch-after-record batch) (follow-progress batch)))
              (setf (batch-keep batch) (and (getf options :report) t)
-                   (batch-all batch) (getf options :all))
+                   (batch-all batch) (getf options :all)
+                   (batch-models batch) (and (getf options :mjcf) (make-models (getf options :mjcf))))
              (run-files batch files (getf options :report)))))))
 
 (defparameter +internal-error+

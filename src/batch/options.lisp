@@ -14,6 +14,10 @@ record a box to standard output, in the same order: the best of seven grasps for
   --input sexp|json         what boxes look like; by default as the input begins
   --format trace|sexp|json  what records look like: the paper's lines, one s-expression a line, or
                             one JSON object a line; by default as the boxes
+  --format isaac|moveit|graspgen
+                            in place of records, the grasps for another program (docs/formats.md):
+                            all possible ones of each box, or with --all N so many
+  --mjcf DIR                also write the best grasp of each box into DIR, as a model for MuJoCo
   --rules FILE              rules to use instead of those that are built in
   --grasps FILE             grasps and gripper to use instead of those that are built in
   --gamma X                 from 0, forces alone, to 1, velocities alone; 0.5 by default
@@ -41,7 +45,7 @@ Exit status:
   66   a file can't be opened or read
   69   --report, but the pictures can't be loaded, or were not there at the build: cl-who is missing
   70   an internal error, a bug in SUPER-GRIP
-  74   output, or a page of the report, was lost
+  74   output, a page of the report or a model was lost
   130  after SIGINT, 143 after SIGTERM
 Where several apply: 70, 74, 130 or 143, 66, 65.
 
@@ -63,8 +67,10 @@ Examples:
   (error 'usage-error :text (apply #'format nil control arguments)))
 
 (defparameter +options+
-  '(("--input" :input :choice "sexp" "json")
-    ("--format" :format :choice "trace" "sexp" "json")
+  `(("--input" :input :choice "sexp" "json")
+    ("--format" :format :choice "trace" "sexp" "json"
+                ,@(mapcar (lambda (writer) (string-downcase (writer-name writer))) *writers*))
+    ("--mjcf" :mjcf :file)
     ("--rules" :rules :file)
     ("--grasps" :grasps :file)
     ("--gamma" :gamma :gamma)

@@ -123,3 +123,13 @@ If LISP is true, mark it as a double: 0.86d0, 1.5d-7."
             do (put-character output (schar digits place))))
   (put-character output mark)
   (put-integer output (1- exponent)))
+
+;;; Standard error
+
+(defun tell (control &rest arguments)
+  "Write a line to standard error, if that can be done."
+  (let ((output (make-output 2)))
+    (handler-case (progn (put-visible output (apply #'format nil control arguments))
+                         (put-octet output 10)
+                         (flush-output output))
+      (system-failure () nil))))

@@ -96,7 +96,7 @@ PLAN, or of none.")
          (append (grasp-part nil nil)
                  (list :tried 0
                        :possible 0
-                       :reason (format nil "~{~a~^; ~}" (mapcar #'problem-reason problems))
+                       :reason (problems-reason problems)
                        :problems (loop for problem in problems
                                        collect (list :line (problem-line problem)
                                                      :column (problem-column problem)
@@ -105,6 +105,10 @@ PLAN, or of none.")
                        :hand nil)
                  (index-part index nil nil)
                  (and all (list :alternatives nil)))))
+
+(defun problems-reason (problems)
+  "Return PROBLEMS in one line."
+  (format nil "~{~a~^; ~}" (mapcar #'problem-reason problems)))
 
 (defun problem-reason (problem)
   "Return PROBLEM as line LINE, column COLUMN: TEXT."

@@ -93,6 +93,26 @@
         (close-descriptor descriptor)
         (error 'write-failure :what "can't be written" :errno errno))))
 
+(defun write-file (file text)
+  "Put TEXT, as UTF-8, in the place of FILE, a string: nobody sees a half of it, and a link that stands
+there is replaced, not followed."
+  (let ((new (concatenate 'string file ".new"))
+        (octets (coerce (sb-ext:string-to-octets text :external-format :utf-8) 'octets))
+        (done nil))
+    (flet ((check (result &optional errno)
+             (or result (error 'write-failure :what "can't be written" :errno errno))))
+      (sb-unix:unix-unlink new)
+      (unwind-protect
+           (let ((descriptor (multiple-value-call #'check
+                               (sb-unix:unix-open new (logior sb-unix:o_wronly sb-unix:o_creat
+                                                              sb-unix:o_excl)
+                                                  #o666))))
+             (unwind-protect (write-octets descriptor octets (length octets))
+               (close-descriptor descriptor))
+             (multiple-value-call #'check (sb-unix:unix-rename new file))
+             (setf done t))
+        (unless done (sb-unix:unix-unlink new))))))
+
 (defun check-access (name mode)
   "Return NIL if MODE, 4 to read, 2 to write, 1 to search, is allowed to us for NAME, a string; or the
 system's error number."

@@ -1,7 +1,8 @@
 ;;;; hand-frame.lisp -- where the hand of a candidate is: its frame, the same for every grasp.
 ;;;;
-;;;; Origin: the grasp centre.  z: the approach, from the palm to the box.  x: the direction in which
-;;;; the hand closes.  y = z x x.  The palm is always over a face, so z lies along an axis of the box.
+;;;; Origin: the grasp centre.  z: the approach, from the palm to the box.  x: the direction in
+;;;; which the hand closes.  y = z x x.  The palm is always over a face, so z lies along an axis of
+;;;; the box.
 
 (in-package :supergrip)
 
@@ -14,8 +15,8 @@ contacts, and across the approach to the face PALM: two values; NIL if there are
           return (values one two)))
 
 (defun lone-face (faces)
-  "Return the one of two grasp faces that has one contact while the other has more, or NIL; FACES are
-those of the contacts."
+  "Return the one of two grasp faces that has one contact while the other has more, or NIL; FACES
+are those of the contacts."
   (let ((lone (find 1 faces :key (lambda (face) (count face faces)))))
     (and lone (rest (rest faces)) (null (rest (remove-duplicates (remove lone faces))))
          lone)))
@@ -30,15 +31,15 @@ CONTACTS, are one face of each axis; else NIL."
          (mapcar #'- (place 1) (place 0)))))
 
 (defun across-approach (vector palm)
-  "Return VECTOR, along X Y Z, without its part along the normal of the box face PALM, made of length
-1; NIL if nothing is left of it."
+  "Return VECTOR, along X Y Z, without its part along the normal of the box face PALM, made of
+length 1; NIL if nothing is left of it."
   (unit-length (loop for number in vector
                      for axis from 0
                      collect (if (= axis (face-axis palm)) 0d0 number))))
 
 (defun closing-direction (candidate contacts)
-  "Return the unit vector, in the box frame, in which the hand of CANDIDATE, with CONTACTS, closes; and,
-where it closes on two opposed faces, one of these.  See CANDIDATE-HAND."
+  "Return the unit vector, in the box frame, in which the hand of CANDIDATE, with CONTACTS, closes;
+and, where it closes on two opposed faces, one of these.  See CANDIDATE-HAND."
   (let* ((grasp (%candidate-grasp candidate))
          (box-faces (matching-faces (%candidate-matching candidate)))
          (faces (mapcar #'first (grasp-contacts grasp)))
@@ -67,22 +68,22 @@ where it closes on two opposed faces, one of these.  See CANDIDATE-HAND."
   "Return where the hand of CANDIDATE, which is possible in PLAN, is: a plist, in the box frame.
 
 :POSITION     the grasp centre from the box centre, three numbers along X Y Z, in cm.
-:ORIENTATION  the hand's frame, a unit quaternion (X Y Z W) with W >= 0: it turns the axes of the box
-              into x y z of the hand.
+:ORIENTATION  the hand's frame, a unit quaternion (X Y Z W) with W >= 0: it turns the axes of the
+              box into x y z of the hand.
 :OPENING      the distance, in cm, of the two opposed faces that the hand closes on, or NIL.
 :CLOSING      x of the hand, a unit vector along X Y Z.
 
-z of the hand is the approach, CANDIDATE-APPROACH: minus the outward normal of the face that the palm
-is over.  y is z x x.  x is the first of these that is there, without its part along z:
-- where contacts oppose each other across z, along their normals, from the face of index 2 to that of
-  index 1, as N2 to N1; of several such axes the first of N O A;
+z of the hand is the approach, CANDIDATE-APPROACH: minus the outward normal of the face that the
+palm is over.  y is z x x.  x is the first of these that is there, without its part along z:
+- where contacts oppose each other across z, along their normals, from the face of index 2 to
+  that of index 1, as N2 to N1; of several such axes the first of N O A;
 - where one contact faces several on one other face, the inward normal of the lone one;
 - where three contacts are on one face of N, of O and of A, from that of N to that of O;
 - the inward normal of the first contact whose normal is not along z;
 - the first of N O A that is not along z.
 Of the shipped grasps the first holds for 2-PARALLEL, 3-PARALLEL and the C-SHAPE, x = N, and the
-U-SHAPE, x = O; the third for the CORNER.  In the ADJACENT grasps the palm is over O1, so that the lone
-contact's normal lies along z, and the fourth holds: x = -N."
+U-SHAPE, x = O; the third for the CORNER.  In the ADJACENT grasps the palm is over O1, so that the
+lone contact's normal lies along z, and the fourth holds: x = -N."
   (contacts-hand candidate (candidate-contacts candidate plan) (plan-box plan)))
 
 (defun hand-in-world (hand pose)
