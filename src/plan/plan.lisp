@@ -36,6 +36,18 @@
   (setf *made-in* (list plan *box* *knowledge* *gamma*)
         *plan* plan))
 
+(defstruct (plan (:constructor %make-plan) (:copier nil))
+  "What was decided for a box, and all that led to it."
+  (box nil :type box :read-only t)
+  (knowledge nil :type knowledge :read-only t)
+  (gamma 0.5d0 :type double-float :read-only t)
+  (index :paper :type keyword :read-only t)
+  (stop nil :read-only t)
+  (best nil :read-only t)
+  (entries '() :type list :read-only t) ; see DO-LOG
+  (facts nil :type (or null saved-facts) :read-only t)
+  (tries '() :type list :read-only t))  ; if no rule ran, what was tried: see TRY-WITHOUT-RULES
+
 (define-condition outdated-plan (warning)
   ((changed :initarg :changed) (by-hand :initarg :by-hand))
   (:report (lambda (condition stream)
@@ -106,18 +118,6 @@ more."
                (when others (write-string between out)))
       (when (plusp left)
         (format out "and ~d more" left)))))
-
-(defstruct (plan (:constructor %make-plan) (:copier nil))
-  "What was decided for a box, and all that led to it."
-  (box nil :type box :read-only t)
-  (knowledge nil :type knowledge :read-only t)
-  (gamma 0.5d0 :type double-float :read-only t)
-  (index :paper :type keyword :read-only t)
-  (stop nil :read-only t)
-  (best nil :read-only t)
-  (entries '() :type list :read-only t) ; see DO-LOG
-  (facts nil :type (or null saved-facts) :read-only t)
-  (tries '() :type list :read-only t))  ; if no rule ran, what was tried: see TRY-WITHOUT-RULES
 
 (defmacro do-log ((log) (candidate &body candidate-body) (event &body event-body))
   "Go through LOG, that of a plan or what an action added to it, in order: run CANDIDATE-BODY with

@@ -119,7 +119,7 @@ its radius; and the bound of all radii."
     (and (some #'plusp (%box-force box))
          (computable-p (contacts-grip candidate workspace) (gravity-on box)))))
 
-(defun refine (&optional (plan *plan*) &key (count 3) (gap 0.02d0) (regions 1000))
+(defun refine (plan &key (count 3) (gap 0.02d0) (regions 1000))
   "Move the fingers of the COUNT best grasps of PLAN, so that their exact quality is as great as possible,
 and return the best REFINEMENT, or NIL if the plan has no grasp.  The second value is the list of all,
 the best first.
