@@ -10,7 +10,7 @@ in them.")
    #:problem #:make-problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text
    #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
-   #:*places* #:form-file #:form-line
+   #:*places* #:form-file #:form-line #:form-place-text
    #:make-problem #:errors-in #:warnings-in #:suggestion
    ;; SBCL itself
    #:backquote-p #:take-from #:give-to #:keep-in #:double-bits #:with-plain-floats #:without-float-traps #:global-name-p
