@@ -244,6 +244,7 @@
                (:file "fuzzer")
                (:file "batch")
                (:file "main")
+               (:file "hands")
                (:file "documents")
                (:static-file "fuzz.lisp")
                (:static-file "run.lisp")

@@ -23,7 +23,8 @@ hand has, its unit and meaning, and which part of SUPER-GRIP uses it.  A gripper
   "A gripper as it was read.  DIMENSIONS, an alist from name to double; NAMES, those that it gives,
 rightly or not; MODEL, a string, or NIL; FORM, (SETQ GRIPPER '(...)), or NIL if there is none; PLACE,
 its file and line as a text, if it has a file of its own."
-  (dimensions '() :type list) (names '() :type list) (model nil) (form nil) (place nil))
+  (dimensions '() :type list :read-only t) (names '() :type list :read-only t)
+  (model nil :read-only t) (form nil :read-only t) (place nil :read-only t))
 
 (defun gripper-dimension (gripper name)
   "Return the dimension NAME, a string, of GRIPPER, a double, or NIL."
@@ -136,7 +137,8 @@ else."
 (defstruct dimension-use
   "That the DIMENSION, a name, is used by USER, a rule or grasp, as KIND says, at PLACE, its file and line
 as a text, if they are known; as the threshold of the ASSERTION, a name, or in a form if that is NIL."
-  dimension (kind "GRASP") user place assertion)
+  (dimension nil :read-only t) (kind "GRASP" :read-only t) (user nil :read-only t)
+  (place nil :read-only t) (assertion nil :read-only t))
 
 (defun use-text (use)
   "Return who makes USE, and where."
