@@ -121,6 +121,7 @@
                (:file "plan-picture")
                (:file "grasps-picture")
                (:file "offset-picture")
+               (:file "gripper-picture")
                (:file "session-picture")
                (:file "strength")
                (:file "quality-picture")

@@ -123,7 +123,7 @@
 
 ;;; Files and folders
 
-(defmacro with-folder ((name &rest files) &body body)
+(defmacro with-hand-folder ((name &rest files) &body body)
   "Run BODY with NAME bound to a new folder, a string with / at its end, that holds FILES, each a list
 of a name and a text."
   `(let* ((directory (uiop:ensure-directory-pathname
@@ -153,7 +153,7 @@ of a name and a text."
       (is (= (grasp-total) (length (supergrip:knowledge-grasps knowledge)))))))
 
 (test a-folder-holds-a-hand
-  (with-folder (hand ("gripper.lisp" *jaw*) ("grasps.lisp" (clamp-text "1"))
+  (with-hand-folder (hand ("gripper.lisp" *jaw*) ("grasps.lisp" (clamp-text "1"))
                      ("rules.lisp" *jaw-rules*))
     (flet ((names (&rest arguments)
              (let ((knowledge (apply #'supergrip:load-knowledge arguments)))
@@ -170,7 +170,7 @@ of a name and a text."
                (problem-texts (lambda () (supergrip:load-knowledge :hand hand)))))))
 
 (test a-folder-may-lack-rules-and-grasps
-  (with-folder (hand ("gripper.lisp" (format nil "(SETQ GRIPPER '~a)"
+  (with-hand-folder (hand ("gripper.lisp" (format nil "(SETQ GRIPPER '~a)"
                                              (supergrip-data:form-text (supergrip:gripper)))))
     (let ((knowledge (supergrip:load-knowledge :hand hand)))
       (is (= (rule-total) (length (supergrip:knowledge-rules knowledge))))
@@ -178,7 +178,7 @@ of a name and a text."
 
 (test the-grippers-own-file-is-read-again
   (with-knowledge-restored
-    (with-folder (hand ("gripper.lisp" *jaw*) ("grasps.lisp" (clamp-text "1"))
+    (with-hand-folder (hand ("gripper.lisp" *jaw*) ("grasps.lisp" (clamp-text "1"))
                        ("rules.lisp" *jaw-rules*))
       (let ((gripper (concatenate 'string hand "gripper.lisp")))
         (flet ((opening ()
@@ -215,7 +215,7 @@ of a name and a text."
 ;;; The command line
 
 (test the-command-line-takes-hands
-  (with-folder (hand ("gripper.lisp" *jaw*) ("grasps.lisp" (clamp-text "1"))
+  (with-hand-folder (hand ("gripper.lisp" *jaw*) ("grasps.lisp" (clamp-text "1"))
                      ("rules.lisp" *jaw-rules*) ("other.lisp" "(SETQ GRIPPER '(DIST-PINCH 1))"))
     (flet ((file (name) (concatenate 'string hand name)))
       (is (equal "CLAMP" (getf (first (answers *pencil* "--hand" hand)) :grasp)))
