@@ -35,6 +35,11 @@
   (flet ((file (name) (merge-pathnames name directory)))
     (dolist (file (list (supergrip-draw:draw-grasps (file "grasps.svg"))
                         (supergrip-draw:draw-offset (file "offset.svg"))
+                        (supergrip-draw:draw-gripper
+                         (file "gripper.svg")
+                         :knowledge (supergrip:load-knowledge
+                                     :gripper (merge-pathnames "examples/hands/robotiq-3-finger.lisp"
+                                                               supergrip::*home*)))
                         (supergrip-draw:draw-system (file "system.svg"))
                         (supergrip-draw:draw-session pencil (file "session.svg"))
                         (supergrip-draw:draw-plan pencil (file "pencil.svg"))

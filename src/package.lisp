@@ -25,6 +25,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:try #:keep #:assertions #:rules #:grasps #:grasp #:gripper
    ;; asking why
    #:how #:why-not #:explain-best #:requires #:describe-rule #:describe-grasp #:describe-input
+   #:describe-gripper
    #:explain-fact #:explain-why-not #:explain-choice #:explain-requirement #:write-answer
    #:derivation #:derivation-p #:derivation-predicate #:derivation-faces #:derivation-rule
    #:derivation-binding #:derivation-parts #:derivation-note
@@ -61,7 +62,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:box-pose #:box-centre #:box-down #:box-gravity
    ;; knowledge
    #:*knowledge* #:load-knowledge #:knowledge #:knowledge-rules #:knowledge-grasps
-   #:declared-inputs #:knowledge-gripper #:knowledge-warnings #:knowledge-rulebase #:grasp-name #:grasp-form
+   #:declared-inputs #:knowledge-gripper #:knowledge-model #:knowledge-warnings #:knowledge-rulebase #:grasp-name #:grasp-form
    ;; plans
    #:plan #:*gamma* #:plan-box #:plan-knowledge #:plan-gamma #:plan-index #:plan-verdict #:plan-reason
    #:plan-best #:plan-candidates #:plan-possible #:plan-rejected #:plan-log #:plan-assertions

@@ -311,6 +311,39 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                                     :knowledge (knowledge "FINGER-LENGTH 3.2"
                                                           "FINGER-LENGTH 1e8"))))))
 
+(defun hand (key name)
+  (supergrip:load-knowledge key (uiop:native-namestring
+                                 (project-file (format nil "examples/hands/~a" name)))))
+
+(test grippers-are-drawn
+  (with-folder (folder)
+    (loop for name in '("paper" "robotiq-3-finger" "barrett-bh8-282")
+          for knowledge = (hand :gripper (format nil "~a.lisp" name))
+          do (supergrip-draw:draw-gripper (in-folder folder "~a.svg" name) :knowledge knowledge)
+             (let ((text (uiop:read-file-string (in-folder folder "~a.svg" name))))
+               (loop for (dimension) in (supergrip:knowledge-gripper knowledge)
+                     do (is (or (search dimension text)
+                                (member dimension '("REACH-C" "SLIPPERY-U" "FINGER-FORCE")
+                                        :test #'string=))
+                            "~a: ~a" name dimension))))
+    (loop for (file complaints) in (parsed folder)
+          do (is (null complaints) "~a: ~a" file complaints))))
+
+(test a-jaw-is-drawn-but-for-what-it-has-not
+  (let* ((jaw (hand :hand "robotiq-2f-85"))
+         (plan (supergrip:plan (sized-box 12 2 2) :knowledge jaw)))
+    (with-folder (folder)
+      (supergrip-draw:draw-plan plan (in-folder folder "plan.svg"))
+      (supergrip-draw:draw-grasps (in-folder folder "grasps.svg") :knowledge jaw)
+      (supergrip-draw:report plan (in-folder folder "page.html"))
+      (loop for (file complaints) in (parsed folder)
+            do (is (null complaints) "~a: ~a" file complaints))
+      (is (equal "the gripper can't be drawn: it names no FINGER-LENGTH, FINGER-DIST, FINGER-SPREAD and REACH-U"
+                 (handler-case (supergrip-draw:draw-gripper (in-folder folder "x.svg") :knowledge jaw)
+                   (supergrip:supergrip-error (condition) (princ-to-string condition)))))
+      (signals supergrip:no-grasp-error
+        (supergrip-draw:draw-offset (in-folder folder "x.svg") :knowledge jaw)))))
+
 (test pictures-do-not-depend-on-float-traps
   (let ((plan (supergrip:plan (sized-box 12 2 2))))
     (with-folder (folder)

@@ -69,12 +69,12 @@
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(REMEMBER DONE)"
      "grasps.lisp:6: warning: GRASP G: no rule tries it")
     (:GRASPS "(SETQ GRIPPER" "(SETQ GRIPER"
-     "grasps.lisp: GRIPPER: there is no (SETQ GRIPPER '(...))"
+     "grasps.lisp: GRIPPER: there is no (SETQ GRIPPER '(...)) here, and no gripper file is given"
      "grasps.lisp:1: GRIPER is not a grasp (did you mean GRIPPER?): its list has none of the keys USED-SURFACES, CONDITIONS, OFFSET, REACH, WRENCH, TWIST, CONTACTS, PALM")
     (:GRASPS "FINGER-LENGTH 3" "FINGER-LENGTH"
      "grasps.lisp:1: GRIPPER: FINGER-LENGTH has no number after it")
-    (:GRASPS "FINGER-LENGTH 3" ""
-     "grasps.lisp:1: GRIPPER: FINGER-LENGTH is missing")
+    (:GRASPS "DIST-PINCH 12" ""
+     "grasps.lisp:1: GRIPPER: DIST-PINCH is missing: GRASP G, grasps.lisp:8, uses it; add it with your hand's number, as  DIST-PINCH 12 ; cm, the opening of the hand")
     (:GRASPS "FINGER-LENGTH 3" "FINGER-LENGTH -3"
      "grasps.lisp:1: GRIPPER: FINGER-LENGTH is -3; a dimension is a number from 0")
     (:GRASPS "FINGER-LENGTH 3" "FINGER-LENGTH 3 FINGER-LENGTH 4"

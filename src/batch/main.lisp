@@ -28,13 +28,17 @@ run of more than two seconds has come."
 
 ;;; Knowledge
 
-(defun knowledge-of (rules grasps)
-  "Return the knowledge of the files RULES and GRASPS, strings, or NIL for those that are built in.
+(defun knowledge-options (options)
+  "Return those of OPTIONS, a plist, that are arguments of LOAD-KNOWLEDGE."
+  (loop for key in '(:hand :rules :grasps :gripper)
+        for file = (getf options key)
+        when file append (list key file)))
+
+(defun knowledge-of (options)
+  "Return the knowledge of the files that OPTIONS, a plist, name, or what is built in if they name none.
 Signals a KNOWLEDGE-ERROR."
-  (if (or rules grasps)
-      (load-knowledge :rules (or rules (shipped-file "rules.lisp"))
-                      :grasps (or grasps (shipped-file "grasps.lisp")))
-      *knowledge*))
+  (let ((files (knowledge-options options)))
+    (if files (apply #'load-knowledge files) *knowledge*)))
 
 (defun readable-p (file)
   "Return true if FILE, a string or NIL, can be read; tell why, if it can't."
@@ -44,13 +48,17 @@ Signals a KNOWLEDGE-ERROR."
       (tell "supergrip: ~a: ~a" file condition)
       nil)))
 
-(defun try-knowledge (rules grasps)
-  "Return the knowledge of the files RULES and GRASPS; or NIL and the exit status, after a report."
-  (if (and (readable-p rules) (readable-p grasps))
+(defun try-knowledge (options)
+  "Return the knowledge of the files that OPTIONS, a plist, name; or NIL and the exit status, after a
+report."
+  (if (destructuring-bind (&key hand rules grasps (gripper (and hand (hand-file hand "gripper.lisp")))
+                           &allow-other-keys)
+          options
+        (every #'readable-p (list rules grasps gripper)))
       (handler-case (handler-bind ((knowledge-warning (lambda (condition)
                                                         (tell "~a" condition)
                                                         (muffle-warning condition))))
-                      (knowledge-of rules grasps))
+                      (knowledge-of options))
         (knowledge-error (condition)
           (tell "~a" condition)
           (values nil 65)))
@@ -58,9 +66,12 @@ Signals a KNOWLEDGE-ERROR."
 
 (defun check (knowledge)
   "Report that KNOWLEDGE has no mistakes, and of how many things was warned."
-  (let ((warnings (length (knowledge-warnings knowledge))))
-    (tell "~d rules and ~d grasps, no mistakes~[~:;, ~:*~d warning~:p~]"
-          (length (knowledge-rules knowledge)) (length (knowledge-grasps knowledge)) warnings))
+  (let ((warnings (length (knowledge-warnings knowledge)))
+        (gripper (knowledge-gripper-file knowledge)))
+    (tell "~d rules and ~d grasps~@[, the gripper of ~a~]~@[ (~a)~], no mistakes~[~:;, ~:*~d ~
+           warning~:p~]"
+          (length (knowledge-rules knowledge)) (length (knowledge-grasps knowledge))
+          (and gripper (data-file-name gripper)) (and gripper (knowledge-model knowledge)) warnings))
   0)
 
 (defun check-and-verify (knowledge gamma)
@@ -193,8 +204,7 @@ not."
     (misused "--verify goes with --check"))
   (when (and (getf options :all) (eq (getf options :format) :trace))
     (misused "--all does not go with --format trace, which shows all possible grasps"))
-  (multiple-value-bind (knowledge status) (try-knowledge (getf options :rules)
-                                                         (getf options :grasps))
+  (multiple-value-bind (knowledge status) (try-knowledge options)
     (cond ((null knowledge) status)
           ((getf options :verify)
            (check-and-verify knowledge (getf options :gamma *gamma*)))

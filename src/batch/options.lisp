@@ -20,6 +20,9 @@ record a box to standard output, in the same order: the best of seven grasps for
   --mjcf DIR                also write the best grasp of each box into DIR, as a model for MuJoCo
   --rules FILE              rules to use instead of those that are built in
   --grasps FILE             grasps and gripper to use instead of those that are built in
+  --gripper FILE            the gripper alone, which takes the place of that of the grasps
+  --hand DIR                a hand's own gripper.lisp, rules.lisp and grasps.lisp; where DIR lacks one
+                            of the last two, what is built in serves
   --gamma X                 from 0, forces alone, to 1, velocities alone; 0.5 by default
   --index paper|exact       what grasps are rated by: the paper's index, or what their contacts can
                             really do, proved, which takes a thousand times as long
@@ -73,6 +76,8 @@ Examples:
     ("--mjcf" :mjcf :file)
     ("--rules" :rules :file)
     ("--grasps" :grasps :file)
+    ("--gripper" :gripper :file)
+    ("--hand" :hand :file)
     ("--gamma" :gamma :gamma)
     ("--index" :index :choice "paper" "exact")
     ("--all" :all :count 1000)

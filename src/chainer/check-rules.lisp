@@ -55,6 +55,12 @@ WORDS and its SURFACES, sorted, each as one text."
                        conclusions (revappend remembered conclusions))))
     (values (reverse tests) (reverse conclusions))))
 
+(defun tested-sentences (forms)
+  "Return what the rules FORMS test: a list of (RULE WORDS CLAUSE), the name of a rule, the words of a
+clause as one text, and its form."
+  (loop for use in (collect-uses forms)
+        collect (list (use-name use) (use-words use) (use-form use))))
+
 (defstruct (sources (:constructor make-sources (given derivers names)))
   "Where sentences come from: tables from the words of one to true if it is GIVEN, an input, and to
 the conclusions that are its DERIVERS, a list of the first and, in order, of all that CHECK-ORDER has

@@ -132,6 +132,10 @@ unknown, they are no slips of the pen.")
   (and (or (form-line form) (not (or form *form*)))
        *file*))
 
+(defun form-place-text (form)
+  "Return the file and the line of FORM as a text, as far as they are known, or NIL."
+  (and (form-file form) (format nil "~a~@[:~d~]" (form-file form) (form-line form))))
+
 (defun form-place (form)
   "Return the line and the column of FORM, as far as they are known."
   (if *places*

@@ -12,6 +12,8 @@ in them.")
    #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
    #:*places* #:form-file #:form-line
    #:errors-in #:warnings-in #:refused-p #:suggestion
+   #:*places* #:form-file #:form-line #:form-place-text
+   #:make-problem #:errors-in #:warnings-in #:suggestion
    ;; SBCL itself
    #:backquote-p #:take-from #:give-to #:keep-in #:double-bits #:with-plain-floats #:without-float-traps #:global-name-p
    #:seeded-state #:define-typed-word #:typed-name

@@ -38,8 +38,9 @@ whose top is at TOP."
           (list (* side (/ across 2)) knuckle)
           (list (* side (/ across 2)) (- knuckle length)))))
 
-(defun draw-dimension (a b text &key (side '(0 0)))
-  "Draw a line with ticks between the points A and B, and TEXT at its middle moved by SIDE."
+(defun draw-dimension (a b text &key (side '(0 0)) leader)
+  "Draw a line with ticks between the points A and B, and TEXT at its middle moved by SIDE, with a LEADER
+if it is far."
   (let* ((length (max 1 (distance a b)))
          (across (list (* 4 (/ (- (second b) (second a)) length))
                        (* 4 (/ (- (first a) (first b)) length)))))
@@ -48,7 +49,7 @@ whose top is at TOP."
       (draw-line (mapcar #'+ end across) (mapcar #'- end across) "thin"))
     (note-strokes (list a b))
     (ask-for-label text (mapcar #'+ (along a b 1/2) side) :class "soft" :away 6
-                   :toward side)))
+                   :toward side :leader leader)))
 
 (defun draw-offset-hand (across top place knowledge)
   "Draw palm, links and joints; PLACE turns (n a) into a point."

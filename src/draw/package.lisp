@@ -10,7 +10,7 @@
   (:documentation "Pictures of boxes, grasps and plans, as SVG, and reports, as HTML.")
   (:export
    ;; the paper's figures
-   #:draw-grasps #:draw-offset #:draw-system #:draw-session
+   #:draw-grasps #:draw-offset #:draw-system #:draw-session #:draw-gripper
    ;; pictures of one plan
    #:draw-plan #:draw-quality #:draw-section
    ;; reports

@@ -69,8 +69,13 @@ an error at compile time says so if one of its kinds has no clause."
 (defstruct scope
   "What names mean in a form: VARIABLES, an alist from name to node, of which GLOBALS are what
 every form sees; FUNCTIONS, an alist from name to (PARAMETERS . BODY), the latest first, and BROKEN,
-the names of those that are wrong; CONSTANTS, a table of the nodes of all forms' numbers."
-  (variables '()) (globals '()) (functions '()) (broken '()) (constants (make-hash-table)))
+the names of those that are wrong; CONSTANTS, a table of the nodes of all forms' numbers.
+
+DIMENSIONS are the entries of VARIABLES for the gripper's dimensions, ABSENT for those that it lacks;
+USES is a table from such an entry to the DIMENSION-USEs of it, the latest first.  GRASP is the name of
+the grasp that is being read.  GRIPPER-PLACE says where the gripper is, if not in the same file."
+  (variables '()) (globals '()) (functions '()) (broken '()) (constants (make-hash-table))
+  (dimensions '()) (absent '()) (uses (make-hash-table :test #'eq)) (grasp nil) (gripper-place nil))
 
 (defparameter +most-constants+ 16000
   "How many different numbers a grasp file may have.  They and the steps of a form take fewer registers
@@ -172,11 +177,24 @@ complaint."
           ((and (consp form) (namep (first form))) (parse-call form scope))
           (t (complain form "~a is not a number, a name or an operation" (form-text form))))))
 
+(defun note-use (entry scope)
+  "Note that the grasp that is being read in SCOPE uses ENTRY, if that is a dimension."
+  (let ((grasp (scope-grasp scope)))
+    (when (and grasp (or (member entry (scope-dimensions scope) :test #'eq)
+                         (member entry (scope-absent scope) :test #'eq)))
+      (pushnew (make-dimension-use :dimension (car entry) :user grasp
+                                   :place (form-place-text *form*))
+               (gethash entry (scope-uses scope))
+               :key #'dimension-use-user :test #'string=))))
+
 (defun parse-variable (name scope)
-  (or (cdr (assoc name (scope-variables scope) :test #'name=))
-      (complain name "unknown name ~a~a; known are U, V, the gripper's dimensions, a helper's ~
-                      parameters and what LET* binds" name
-                (suggestion (symbol-name name) (mapcar #'car (scope-variables scope))))))
+  (let ((entry (assoc name (scope-variables scope) :test #'name=)))
+    (cond (entry (note-use entry scope)
+                 (cdr entry))
+          (t (complain name "unknown name ~a~a; known are U, V, the gripper's dimensions~@[ (~a)~], ~
+                             a helper's parameters and what LET* binds" name
+                       (suggestion (symbol-name name) (mapcar #'car (scope-variables scope)))
+                       (scope-gripper-place scope))))))
 
 (defun parse-arithmetic (form scope wanted)
   (declare (ignore wanted))

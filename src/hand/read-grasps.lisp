@@ -43,9 +43,10 @@ of them whose grasp centre is surely the same place of the box."
     (write-string (grasp-name grasp) stream)))
 
 (defstruct graspbase
-  "The gripper (an alist from name to double), the grasps, and the registers that their programs
-start from."
-  (gripper '() :type list :read-only t)
+  "The gripper, the grasps, and the registers that their programs start from.  USES are
+the DIMENSION-USEs of grasps, ROWS those of all known dimensions (see +DIMENSIONS+)."
+  (gripper (make-gripper) :type gripper :read-only t)
+  (uses '() :type list :read-only t) (rows '() :type list :read-only t)
   (grasps '() :type list :read-only t)
   (broken '() :type list :read-only t)  ; names of grasps that were left out
   (registers (make-array +inputs-end+ :element-type 'double-float) :type registers :read-only t))
@@ -58,7 +59,7 @@ start from."
 
 (defun dimension (graspbase name)
   "Return the gripper's dimension NAME, a string, as a double."
-  (cdr (assoc name (graspbase-gripper graspbase) :test #'string=)))
+  (gripper-dimension (graspbase-gripper graspbase) name))
 
 ;;; Helper functions
 
@@ -258,7 +259,9 @@ and sentences."
 
 (defun parse-grasp-parts (name plist form scope)
   (let* ((*subject* (format nil "GRASP ~a" name)) (*form* form)
-         (entries (grasp-entries plist form)))
+         (entries (grasp-entries plist form))
+         (scope (copy-scope scope)))
+    (setf (scope-grasp scope) (symbol-name name))
     (flet ((given (key) (assoc key entries :test #'string=)))
       (macrolet ((part (key form)
                    `(and (given ,key)
@@ -278,6 +281,7 @@ and sentences."
             (let ((wrench (parse-capacity "WRENCH" #'given placement #'parse-wrench))
                   (twist (parse-capacity "TWIST" #'given placement #'parse-twist)))
               (and used palm contacts conditions offset wrench twist
+                   (not (uses-absent-p (symbol-name name) scope))
                    (make-draft :name (symbol-name name) :form form
                                :file (form-file form)
                                :line (form-line form)
@@ -377,26 +381,38 @@ has one of them."
 
 ;;; The file
 
-(defun global-scope (gripper)
-  "Return the scope of a grasp file with GRIPPER.  Dimensions that it lacks, of which was complained,
-are known all the same, so that no form is blamed for them."
-  (let ((scope (make-scope))
-        (gripper (append gripper
-                         (loop for name in +dimensions+
-                               unless (assoc name gripper :test #'string=)
-                                 collect (cons name 1d0)))))
-    (setf (scope-variables scope)
-          (list* (cons "U" (input-node +u+)) (cons "V" (input-node +v+))
-                 (loop for (name . number) in gripper
-                       collect (cons name (constant-node scope number))))
-          (scope-globals scope) (scope-variables scope))
+(defun global-scope (gripper rows)
+  "Return the scope of a grasp file with GRIPPER.  Of the dimensions ROWS, those that it lacks are known
+all the same, so that no form is blamed for them."
+  (let ((scope (make-scope :gripper-place (gripper-place gripper))))
+    (flet ((entry (name number) (cons name (constant-node scope number))))
+      (setf (scope-dimensions scope)
+            (loop for (name . number) in (gripper-dimensions gripper) collect (entry name number))
+            (scope-absent scope)
+            (loop for (name number) in rows
+                  unless (gripper-dimension gripper name) collect (entry name number))
+            (scope-variables scope)
+            (list* (cons "U" (input-node +u+)) (cons "V" (input-node +v+))
+                   (append (scope-dimensions scope) (scope-absent scope)))
+            (scope-globals scope) (scope-variables scope)))
     scope))
 
-(defun build-graspbase (forms)
-  "Return the graspbase of FORMS, those of a grasp file, in their order.
-Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
-  (let* ((gripper (build-gripper forms))
-         (scope (global-scope gripper))
+(defun uses-absent-p (grasp scope)
+  "True if GRASP, a name, uses a dimension that the gripper lacks."
+  (loop for entry in (scope-absent scope)
+          thereis (find grasp (gethash entry (scope-uses scope))
+                        :key #'dimension-use-user :test #'string=)))
+
+(defun dimension-uses (scope)
+  "Return the DIMENSION-USEs that were noted in SCOPE, in order."
+  (loop for entry in (append (scope-dimensions scope) (scope-absent scope))
+        append (reverse (gethash entry (scope-uses scope)))))
+
+(defun build-graspbase (forms &optional (gripper (build-gripper forms)))
+  "Return the graspbase of FORMS, those of a grasp file, in their order, and of GRIPPER, by default that
+among them.  Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
+  (let* ((rows (known-dimensions forms))
+         (scope (global-scope gripper rows))
          (drafts '()) (broken '())
          (names (make-hash-table :test #'equal)))
     (dolist (form forms)
@@ -420,4 +436,5 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
            (grasps (loop for draft in (reverse drafts)
                          for index from 0
                          collect (finish-grasp draft index layout))))
-      (make-graspbase :gripper gripper :grasps grasps :broken broken :registers (make-registers layout)))))
+      (make-graspbase :gripper gripper :uses (dimension-uses scope) :rows rows :grasps grasps
+                      :broken broken :registers (make-registers layout)))))

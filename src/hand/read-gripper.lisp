@@ -3,9 +3,32 @@
 (in-package :supergrip)
 
 (defparameter +dimensions+
-  '("FINGER-LENGTH" "FINGER-DIST" "FINGER-SPREAD" "FINGER-WIDTH" "DIST-PINCH" "WIDTH-HAND"
-    "SLIPPERY-U")
-  "The dimensions that SUPER-GRIP itself or the printed grasp needs; a gripper may have others.")
+  '(("FINGER-LENGTH" 3.2d0 "cm, of each of a finger's two links")
+    ("FINGER-DIST" 6.05d0 "cm, between the bases of opposed fingers")
+    ("FINGER-SPREAD" 1.7375d0 "cm, between the two fingers that work side by side")
+    ("FINGER-WIDTH" 0.3d0 "cm, the least width of a face that a fingertip can hold")
+    ("DIST-PINCH" 12d0 "cm, the opening of the hand")
+    ("WIDTH-HAND" 8d0 "cm, across the fingers")
+    ("REACH-U" 4.85d0 "cm, of thumb and palm from the closing fingers in the U-shape")
+    ("REACH-C" 4.825d0 "cm, the same in the C-shape")
+    ("SLIPPERY-U" 0.1d0 "friction at or below which the box is SLIPPERY")
+    ("FINGER-FORCE" 15d0 "N, the greatest normal force of a finger"
+     "boxes with forces in N or LBF, or with a mass")
+    ("PALM-DEPTH" 8d0 "cm, from the palm's frame to the grasp centre"
+     "formats that place the palm"))
+  "The dimensions that shipped knowledge or SUPER-GRIP itself may use: the name, a number such as a
+hand has, its unit and meaning, and which part of SUPER-GRIP uses it.  A gripper names those that are used, and may have others.")
+
+(defstruct gripper
+  "A gripper as it was read.  DIMENSIONS, an alist from name to double; NAMES, those that it gives,
+rightly or not; MODEL, a string, or NIL; FORM, (SETQ GRIPPER '(...)), or NIL if there is none; PLACE,
+its file and line as a text, if it has a file of its own."
+  (dimensions '() :type list :read-only t) (names '() :type list :read-only t)
+  (model nil :read-only t) (form nil :read-only t) (place nil :read-only t))
+
+(defun gripper-dimension (gripper name)
+  "Return the dimension NAME, a string, of GRIPPER, a double, or NIL."
+  (cdr (assoc name (gripper-dimensions gripper) :test #'string=)))
 
 (defparameter +most-dimensions+ 200 "The most dimensions that a gripper may have.")
 
@@ -22,31 +45,42 @@
         if (consp part) append part
           else collect part))
 
-(defun parse-gripper (list form)
-  "Return the alist of the dimensions in LIST, names and numbers in turn, complaining of what is
-wrong.  A name and its number may have a list of their own."
-  (let ((dimensions '()) (names '()) (list (flat-list list)))
-    (when (nthcdr (* 2 +most-dimensions+) list)
-      (return-from parse-gripper
-        (complain form "more than ~d dimensions" +most-dimensions+)))
-    (loop while list
-          do (let ((name (pop list)))
-               (cond ((not (namep name))
-                      (complain form "~a is not the name of a dimension" (form-text name)))
-                     ((not (realp (first list)))
-                      (push name names)
-                      (complain form "~a has no number after it" name))
-                     ((name-in name names)
-                      (complain form "~a is given twice" name)
-                      (pop list))
-                     (t (push name names)
-                        (let ((entry (parse-dimension name (pop list) form)))
-                          (when entry (push entry dimensions)))))))
-    (dolist (name +dimensions+)
-      (unless (find-if (lambda (given) (name= given name)) names)
-        (complain form "~a is missing" name)))
+(defparameter +longest-model+ 100 "The most characters that the name of a gripper's model may have.")
+
+(defun parse-model (value form)
+  "Return VALUE, the model's name, or NIL after a complaint."
+  (if (and (stringp value) (<= 1 (length value) +longest-model+))
+      value
+      (complain form "MODEL is the name of the hand, a string of at most ~d characters such as ~
+                      \"2F-85\", not ~a" +longest-model+ (form-text value))))
+
+(defun parse-number-of (name list form)
+  "Return the entry of the dimension NAME, whose number LIST, the rest of the gripper, begins with; or
+NIL after a complaint."
+  (if (realp (first list))
+      (parse-dimension name (first list) form)
+      (complain form "~a has no number after it" name)))
+
+(defun parse-gripper (list form place)
+  "Return the gripper of LIST, names and values in turn, complaining of what is wrong.  A name and its
+value may have a list of their own.  FORM holds LIST, and stands at PLACE."
+  (let ((dimensions '()) (names '()) (model nil) (list (flat-list list)))
+    (if (nthcdr (* 2 +most-dimensions+) list)
+        (complain form "more than ~d dimensions" +most-dimensions+)
+        (loop while list
+              do (let ((name (pop list)))
+                   (cond ((not (namep name))
+                          (complain form "~a is not the name of a dimension" (form-text name)))
+                         ((name-in name names) (complain form "~a is given twice" name))
+                         ((name= name "MODEL") (setf model (parse-model (first list) form)))
+                         (t (let ((entry (parse-number-of name list form)))
+                              (when entry (push entry dimensions)))))
+                   (when (namep name)
+                     (push (symbol-name name) names)
+                     (unless (namep (first list)) (pop list))))))
     (check-gripper dimensions form)
-    (nreverse dimensions)))
+    (make-gripper :dimensions (nreverse dimensions) :names names :model model :form form
+                  :place place)))
 
 (defun check-gripper (dimensions form)
   "Complain of DIMENSIONS that contradict each other."
@@ -62,7 +96,9 @@ wrong.  A name and its number may have a list of their own."
       (when (and width spread (> width spread))
         (compare "FINGER-WIDTH is ~a, more than FINGER-SPREAD, ~a" width spread))
       (when (and spread pinch (> spread pinch))
-        (compare "FINGER-SPREAD is ~a, more than DIST-PINCH, ~a" spread pinch)))))
+        (compare "FINGER-SPREAD is ~a, more than DIST-PINCH, ~a" spread pinch))
+      (when (eql 0d0 (size "FINGER-FORCE"))
+        (complain form "FINGER-FORCE is 0; a finger that exerts no force holds nothing")))))
 
 (defun definition-form (form)
   "Return the name and the list of FORM, (SETQ name '(...)), or NIL after a complaint."
@@ -75,14 +111,69 @@ wrong.  A name and its number may have a list of their own."
 (defun gripper-form-p (form)
   (and (part-p form "SETQ") (consp (rest form)) (name= (second form) "GRIPPER")))
 
-(defun build-gripper (forms)
-  "Return the gripper that the one (SETQ GRIPPER ...) among FORMS gives, or complain."
+(defun build-gripper (forms &key alone)
+  "Return the gripper that the one (SETQ GRIPPER ...) among FORMS gives; one without dimensions after a
+complaint if it is wrong.  If ALONE is true, FORMS are those of a gripper file, which holds nothing
+else."
   (let* ((grippers (remove-if-not #'gripper-form-p forms))
-         (*form* (first grippers))
-         (*subject* "GRIPPER"))
-    (cond ((null grippers) (complain nil "there is no (SETQ GRIPPER '(...))"))
-          (t
-           (dolist (second (rest grippers))
-             (complain second "the gripper is given twice"))
-           (multiple-value-bind (name plist) (definition-form (first grippers))
-             (and name (parse-gripper plist (first grippers))))))))
+         (form (first grippers)))
+    (when alone
+      (dolist (other (remove-if #'gripper-form-p forms))
+        (complain other "a gripper file holds (SETQ GRIPPER '(...)) alone, not ~a; rules and grasps ~
+                         have files of their own" (form-text other))))
+    (let ((*form* form) (*subject* "GRIPPER"))
+      (when (null form)
+        (complain nil "there is no (SETQ GRIPPER '(...))~:[ here, and no gripper file is given~;~]"
+                  alone))
+      (dolist (second (rest grippers))
+        (complain second "the gripper is given twice"))
+      (multiple-value-bind (name list) (and form (definition-form form))
+        (if name
+            (parse-gripper list form (and alone (form-place-text form)))
+            (make-gripper))))))
+
+;;; Which dimensions are used
+
+(defstruct dimension-use
+  "That the DIMENSION, a name, is used by USER, a rule or grasp, as KIND says, at PLACE, its file and line
+as a text, if they are known; as the threshold of the ASSERTION, a name, or in a form if that is NIL."
+  (dimension nil :read-only t) (kind "GRASP" :read-only t) (user nil :read-only t)
+  (place nil :read-only t) (assertion nil :read-only t))
+
+(defun use-text (use)
+  "Return who makes USE, and where."
+  (format nil "~a ~a~@[, ~a,~] uses it~@[ for ~a~]" (dimension-use-kind use) (dimension-use-user use)
+          (dimension-use-place use) (dimension-use-assertion use)))
+
+(defun replaced-dimensions (forms)
+  "Return the rows, as in +DIMENSIONS+, of the dimensions of grippers among FORMS that count no more."
+  (loop for form in (remove-if-not #'gripper-form-p forms)
+        for list = (and (= (length form) 3) (part-p (third form) "QUOTE") (second (third form)))
+        append (loop for (name value) on (and (listp list) (flat-list list))
+                     when (and (namep name) (realp value) (as-double value))
+                       collect (list (symbol-name name) (as-double value)))))
+
+(defun known-dimensions (forms)
+  "Return the rows of all dimensions that the grasp file FORMS may mean."
+  (remove-duplicates (append +dimensions+ (replaced-dimensions forms))
+                     :key #'first :test #'string= :from-end t))
+
+(defun dimension-line (name rows)
+  "Return what a gripper may have for the dimension NAME, one of ROWS."
+  (destructuring-bind (number &optional meaning &rest parts)
+      (rest (assoc name rows :test #'string=))
+    (declare (ignore parts))
+    (format nil "~a ~a~@[ ; ~a~]" name (number-text number) meaning)))
+
+(defun check-dimensions (gripper uses rows)
+  "Complain of each dimension that GRIPPER lacks, and of which there is one among USES.  ROWS are those
+of all known dimensions."
+  (when (gripper-form gripper)
+    (let ((*form* (gripper-form gripper)) (*subject* "GRIPPER"))
+      (loop for (name) in rows
+            for (first . others) = (remove name uses :key #'dimension-use-dimension
+                                                     :test-not #'string=)
+            when (and first (not (member name (gripper-names gripper) :test #'string=)))
+              do (complain *form* "~a is missing: ~a~[~;, and 1 other does~:;, and ~:*~d others do~]; ~
+                                   add it with your hand's number, as  ~a"
+                           name (use-text first) (length others) (dimension-line name rows))))))

@@ -4,14 +4,18 @@
 
 (defstruct (knowledge (:constructor %make-knowledge))
   "Rules and grasps, ready for use; immutable, but for SPARE, scratch space that plans give back (see
-START-PLAN).  INPUTS are the preliminary assertions, prepared.  RULE-FILE and GRASP-FILE are what they
-were made of, COMPLAINTS the PROBLEMs that did not prevent it."
+START-PLAN).  INPUTS are the preliminary assertions, prepared; USES the DIMENSION-USEs of rules and
+grasps.  RULE-FILE, GRASP-FILE and GRIPPER-FILE,
+which is NIL if the gripper is that of the grasp file, are what they were made of, COMPLAINTS the
+PROBLEMs that did not prevent it."
   (rule-file nil :read-only t)
   (grasp-file nil :read-only t)
+  (gripper-file nil :read-only t)
   (rulebase nil :type rulebase :read-only t)
   (graspbase nil :type graspbase :read-only t)
   (predicates #() :type simple-vector :read-only t)
   (inputs '() :type list :read-only t)
+  (uses '() :type list :read-only t)
   (complaints '() :type list :read-only t)
   (spare '() :type list))
 
@@ -32,8 +36,16 @@ were made of, COMPLAINTS the PROBLEMs that did not prevent it."
 
 (defun knowledge-gripper (knowledge)
   "Return the dimensions of the gripper of KNOWLEDGE, a new alist from name to double, in cm
-(SLIPPERY-U: a coefficient)."
-  (copy-alist (graspbase-gripper (knowledge-graspbase knowledge))))
+(SLIPPERY-U: a coefficient; FINGER-FORCE, if it is there: N)."
+  (copy-alist (gripper-dimensions (graspbase-gripper (knowledge-graspbase knowledge)))))
+
+(defun knowledge-model (knowledge)
+  "Return the MODEL of the gripper of KNOWLEDGE, a string, or NIL."
+  (gripper-model (graspbase-gripper (knowledge-graspbase knowledge))))
+
+(defun gripper-source (knowledge)
+  "Return the data file that has the gripper of KNOWLEDGE."
+  (or (knowledge-gripper-file knowledge) (knowledge-grasp-file knowledge)))
 
 (defun declared-inputs (knowledge)
   "Return what the rule file of KNOWLEDGE declares by (INPUT ...), in its order: a new list of
@@ -43,16 +55,9 @@ were made of, COMPLAINTS the PROBLEMs that did not prevent it."
           collect (list (copy-list (predicate-words predicate)) (predicate-arity predicate))))
 
 (defstruct data-file
-  "A rule or grasp file that was read: its PATH, if it is one, its NAME in reports, its FORMS, LINES,
+  "A rule, grasp or gripper file that was read: its PATH, if it is one, its NAME in reports, its FORMS, LINES,
 a table from form to line, COMMENTS, one from form to comment, and the PROBLEMS of reading it."
   (path nil) (name nil) (forms '() :type list) (lines nil) (comments nil) (problems '() :type list))
-
-(defun assemble (rulebase graspbase rule-file grasp-file problems)
-  (%make-knowledge :rulebase rulebase :graspbase graspbase
-                   :rule-file rule-file :grasp-file grasp-file
-                   :predicates (rulebase-predicates rulebase)
-                   :inputs (prepare-inputs rulebase graspbase)
-                   :complaints (warnings-in problems)))
 
 (defmacro with-data-file ((file) &body body)
   "Run BODY with what it complains of placed in the data file FILE."
@@ -60,22 +65,67 @@ a table from form to line, COMMENTS, one from form to comment, and the PROBLEMS 
          (*comments* (data-file-comments ,file)) (*form* nil))
      ,@body))
 
-(defun build-knowledge (rule-file grasp-file)
-  "Return the knowledge in RULE-FILE and GRASP-FILE, data files, and the list of all problems.
-What is wrong is left out."
-  (multiple-value-bind (bases problems)
+(defun build-grasps (grasp-file gripper-file)
+  "Return the graspbase of GRASP-FILE and, if that is not NIL, of the gripper in GRIPPER-FILE."
+  (with-plain-floats
+    (let ((gripper (and gripper-file
+                        (with-data-file (gripper-file)
+                          (build-gripper (data-file-forms gripper-file) :alone t)))))
+      (with-data-file (grasp-file)
+        (let ((forms (data-file-forms grasp-file)))
+          (if gripper (build-graspbase forms gripper) (build-graspbase forms)))))))
+
+(defun threshold-uses (forms)
+  "Return the DIMENSION-USEs of the rules FORMS: of the thresholds of the preliminary assertions that
+they test."
+  (loop for (rule words clause) in (tested-sentences forms)
+        for row = (find words *inputs* :key #'input-row-name :test #'string=)
+        when (and row (input-row-dimension row))
+          collect (make-dimension-use :dimension (input-row-dimension row) :kind "RULE" :user rule
+                                      :place (form-place-text clause) :assertion words)))
+
+(defun build-rules (rule-file graspbase)
+  "Return the rulebase of RULE-FILE, whose rules try the grasps of GRASPBASE, and its DIMENSION-USEs.
+Rules that test a threshold that the gripper lacks are left out."
+  (with-data-file (rule-file)
+    (let* ((forms (data-file-forms rule-file))
+           (uses (threshold-uses forms))
+           (lame (remove-if (lambda (use) (dimension graspbase (dimension-use-dimension use))) uses)))
+      (flet ((build (forms)
+               (build-rulebase forms (input-predicates) :client graspbase))
+             (lame-p (form)
+               (and (part-p form "RULE")
+                    (find (second form) lame :key #'dimension-use-user :test #'name=))))
+        (let ((rulebase (build forms)))
+          (values (if lame
+                      ;; What follows from their absence is no news.
+                      (values (with-problems (build (remove-if #'lame-p forms))))
+                      rulebase)
+                  uses))))))
+
+(defun build-knowledge (rule-file grasp-file &optional gripper-file)
+  "Return the knowledge in RULE-FILE, GRASP-FILE and, if that is not NIL, GRIPPER-FILE, data files, and
+the list of all problems.  What is wrong is left out."
+  (multiple-value-bind (make problems)
       (with-problems
-        (let* ((graspbase (with-data-file (grasp-file)
-                            (with-plain-floats (build-graspbase (data-file-forms grasp-file)))))
-               (rulebase (with-data-file (rule-file)
-                           (build-rulebase (data-file-forms rule-file) (input-predicates)
-                                           :client graspbase))))
-          (check-knowledge graspbase rulebase rule-file grasp-file)
-          (cons rulebase graspbase)))
+        (let ((graspbase (build-grasps grasp-file gripper-file)))
+          (multiple-value-bind (rulebase uses) (build-rules rule-file graspbase)
+            (let ((uses (append (graspbase-uses graspbase) uses)))
+              (with-data-file ((or gripper-file grasp-file))
+                (check-dimensions (graspbase-gripper graspbase) uses (graspbase-rows graspbase)))
+              (check-knowledge graspbase rulebase rule-file grasp-file)
+              (lambda (problems)
+                (%make-knowledge :rulebase rulebase :graspbase graspbase :uses uses
+                                 :rule-file rule-file :grasp-file grasp-file
+                                 :gripper-file gripper-file
+                                 :predicates (rulebase-predicates rulebase)
+                                 :inputs (prepare-inputs rulebase graspbase)
+                                 :complaints (warnings-in problems)))))))
     ;; What follows from a file that could not be read at all is no news.
-    (let ((problems (or (append (data-file-problems grasp-file) (data-file-problems rule-file))
+    (let ((problems (or (loop for file in (list gripper-file grasp-file rule-file)
+                              append (and file (data-file-problems file)))
                         problems)))
-      (values (assemble (car bases) (cdr bases) rule-file grasp-file problems) problems))))
+      (values (funcall make problems) problems))))
 
 ;;; Knowledge with a change
 
@@ -86,23 +136,28 @@ What is wrong is left out."
     copy))
 
 (defun with-dimension (name value forms)
-  "Return FORMS, those of a grasp file, with VALUE for the dimension NAME of its gripper."
+  "Return FORMS, those of the file that has the gripper, with VALUE for its dimension NAME."
   (flet ((changed (form)
            (let ((list (flat-list (second (third form)))))
              `(,(first form) ,(second form)
-               (:quote ,(loop for (key old) on list by #'cddr
-                              collect key
-                              collect (if (name= key name) value old)))))))
+               (:quote ,(append (loop for (key old) on list by #'cddr
+                                      collect key
+                                      collect (if (name= key name) value old))
+                                (unless (loop for (key) on list by #'cddr thereis (name= key name))
+                                  (list name value))))))))
     (loop for form in forms
           collect (if (gripper-form-p form) (changed form) form))))
 
 (defun knowledge-with-dimension (knowledge name value)
   "Return KNOWLEDGE with VALUE for the dimension NAME of the gripper, or NIL if that is not valid."
-  (multiple-value-bind (changed problems)
-      (build-knowledge (knowledge-rule-file knowledge)
-                       (edited-file (knowledge-grasp-file knowledge)
-                                    (lambda (forms) (with-dimension name value forms))))
-    (and (null (errors-in problems)) changed)))
+  (flet ((edited (file)
+           (edited-file file (lambda (forms) (with-dimension name value forms)))))
+    (let ((grasps (knowledge-grasp-file knowledge)) (gripper (knowledge-gripper-file knowledge)))
+      (multiple-value-bind (changed problems)
+          (build-knowledge (knowledge-rule-file knowledge)
+                           (if gripper grasps (edited grasps))
+                           (and gripper (edited gripper)))
+        (and (null (errors-in problems)) changed)))))
 
 ;;; What can't be meant
 
@@ -226,14 +281,32 @@ calls READ again, and CONTINUE, which goes on without the rules and grasps that 
         :report "Go on without the rules and grasps that are wrong."
         (return (values (funcall read)))))))
 
-(defun load-knowledge (&key (rules (shipped-file "rules.lisp"))
-                         (grasps (shipped-file "grasps.lisp")))
+(defun hand-file (hand name)
+  "Return the file NAME of the folder HAND, as a path or as a string, as HAND is."
+  (cond ((stringp hand) (format nil "~a/~a" (string-right-trim "/" hand) name))
+        (t (merge-pathnames name (native-path hand :directory t)))))
+
+(defun knowledge-file (name hand)
+  "Return the file NAME of the folder HAND, or, if that is NIL or lacks it, the one that is shipped."
+  (let ((file (and hand (hand-file hand name))))
+    (if (and file (probe-file (native-path file)))
+        file
+        (shipped-file name))))
+
+(defun load-knowledge (&key hand
+                         (rules (knowledge-file "rules.lisp" hand))
+                         (grasps (knowledge-file "grasps.lisp" hand))
+                         (gripper (and hand (hand-file hand "gripper.lisp"))))
   "Read the files RULES and GRASPS, by default those that are shipped, and return their knowledge.
+GRIPPER is a file that holds a gripper alone, which takes the place of the one in GRASPS.  HAND is a
+folder that holds what belongs to one hand: gripper.lisp, rules.lisp and grasps.lisp; where it lacks
+one of the last two, the shipped one serves.
+
 Signals one KNOWLEDGE-ERROR that holds all that is wrong with them; restarts: RETRY reads the files
 again, CONTINUE leaves out the rules and grasps that are wrong.  What is valid but can't be meant is
 a KNOWLEDGE-WARNING."
-  (let ((rules (data-file-of rules)) (grasps (data-file-of grasps)))
-    (accept-files (lambda () (build-knowledge (read-data-file rules) (read-data-file grasps))))))
+  (let ((files (mapcar #'data-file-of (list* rules grasps (and gripper (list gripper))))))
+    (accept-files (lambda () (apply #'build-knowledge (mapcar #'read-data-file files))))))
 
 (defvar *knowledge* (load-knowledge)
   "The rules and grasps that plans use if no others are given.")

@@ -35,16 +35,22 @@ returns the former."
       :report "Leave the knowledge in force as it was."
       *knowledge*)))
 
-(defun reload-knowledge (&key rules grasps)
-  "Read the files of the knowledge in force again, or the files RULES and GRASPS, and put what they
-hold into force.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
-  (flet ((file (given in-force)
-           (or given in-force)))
+(defun reload-knowledge (&key hand
+                           (rules (if hand
+                                      (knowledge-file "rules.lisp" hand)
+                                      (knowledge-rule-file *knowledge*)))
+                           (grasps (if hand
+                                       (knowledge-file "grasps.lisp" hand)
+                                       (knowledge-grasp-file *knowledge*)))
+                           (gripper (if hand
+                                        (hand-file hand "gripper.lisp")
+                                        (knowledge-gripper-file *knowledge*))))
+  "Read the files of the knowledge in force again, or the files RULES, GRASPS and GRIPPER, or those of
+the folder HAND, as LOAD-KNOWLEDGE does, and put what they hold into force.  If GRIPPER is NIL, the
+gripper is that of the grasp file.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
+  (let ((files (list* rules grasps (and gripper (list gripper)))))
     (put-into-force #'accept-files
-                    (lambda ()
-                      (build-knowledge
-                       (read-data-file (file rules (knowledge-rule-file *knowledge*)))
-                       (read-data-file (file grasps (knowledge-grasp-file *knowledge*))))))))
+                    (lambda () (apply #'build-knowledge (mapcar #'read-data-file files))))))
 
 (defun same-definition-p (form other)
   "True if FORM and OTHER define the same name, or declare the same sentence, in the same way."
@@ -93,8 +99,9 @@ given, in a place of its own."
       form))
 
 (defun dimension-name-p (name)
-  "True if NAME is that of a dimension of the gripper in force."
-  (assoc name (knowledge-gripper *knowledge*) :test #'name=))
+  "True if NAME is that of a dimension that the gripper in force has, or may have."
+  (or (assoc name (knowledge-gripper *knowledge*) :test #'name=)
+      (assoc name +dimensions+ :test #'name=)))
 
 (defun subject-of (name)
   "Return what NAME, which SETQ defines, is called in reports."
@@ -172,22 +179,34 @@ goes last.  What one SETQ defines takes effect together.  Returns the new knowle
 On a KNOWLEDGE-ERROR the former knowledge stays in force; the restart CONTINUE goes on with it.  The
 files stay as they are: RELOAD-KNOWLEDGE takes edits back."
   (let ((form (canonical-definition form)))
-    (change-knowledge (or (part-p form "RULE") (input-form-p form))
-                      (lambda (forms)
-                        (dolist (definition (definitions form) forms)
-                          (setf forms (put-definition definition forms before))))
+    (change-knowledge (mapcar (lambda (definition)
+                                (list (file-kind definition)
+                                      (lambda (forms) (put-definition definition forms before))))
+                              (definitions form))
                       (mapcar #'defined-name (definitions form)))))
 
-(defun change-knowledge (rules-p edit &optional names)
-  "Put into force what becomes of the knowledge when EDIT, a function, changes the forms of its rules,
-or of its grasps if RULES-P is false; NAMES are those of what is new."
-  (let ((rules (knowledge-rule-file *knowledge*))
-        (grasps (knowledge-grasp-file *knowledge*)))
+(defun file-kind (definition)
+  "Return which file DEFINITION belongs to: :RULES, :GRASPS or :GRIPPER."
+  (cond ((or (part-p definition "RULE") (input-form-p definition)) :rules)
+        ((or (gripper-form-p definition)
+             (and (part-p definition "SETQ") (dimension-name-p (defined-name definition))))
+         :gripper)
+        (t :grasps)))
+
+(defun change-knowledge (edits &optional names)
+  "Put into force what becomes of the knowledge with EDITS, a list of (KIND FUNCTION), in which each
+FUNCTION changes the forms of the file of its KIND (see FILE-KIND); NAMES are those of what is new."
+  (let* ((rules (knowledge-rule-file *knowledge*))
+         (grasps (knowledge-grasp-file *knowledge*))
+         (gripper (knowledge-gripper-file *knowledge*)))
     (put-into-force (lambda (make) (accept-edit make names))
                     (lambda ()
-                      (if rules-p
-                          (build-knowledge (edited-file rules edit) grasps)
-                          (build-knowledge rules (edited-file grasps edit)))))))
+                      (loop for (kind edit) in edits
+                            do (cond ((eq kind :rules) (setf rules (edited-file rules edit)))
+                                     ((and gripper (eq kind :gripper))
+                                      (setf gripper (edited-file gripper edit)))
+                                     (t (setf grasps (edited-file grasps edit)))))
+                      (build-knowledge rules grasps gripper)))))
 
 (defun forget (name)
   "Take the rule or the grasp NAME, a symbol or a string, or the declaration of the words NAME, out
@@ -195,14 +214,16 @@ of the knowledge in force, and return the new knowledge.  On a KNOWLEDGE-ERROR, 
 The files stay as they are: RELOAD-KNOWLEDGE takes it back."
   (let ((declaration (named-declaration name)))
     (if declaration
-        (change-knowledge t (lambda (forms)
-                              (remove-if (lambda (form) (same-definition-p declaration form))
-                                         forms)))
+        (change-knowledge `((:rules ,(lambda (forms)
+                                       (remove-if (lambda (form)
+                                                    (same-definition-p declaration form))
+                                                  forms)))))
         (let* ((name (check-name name))
                (rule-p (find-rule (knowledge-rulebase *knowledge*) name)))
           (flet ((of-name-p (form)
                    (and (part-p form (if rule-p "RULE" "SETQ")) (name= (second form) name))))
-            (change-knowledge rule-p (lambda (forms) (remove-if #'of-name-p forms))))))))
+            (change-knowledge `((,(if rule-p :rules :grasps)
+                                 ,(lambda (forms) (remove-if #'of-name-p forms))))))))))
 
 (defun named-declaration (name)
   "Return the (INPUT ...) in force of the words NAME, unless a rule or a grasp has this name; or NIL."
@@ -253,7 +274,7 @@ to two keys."
              (defining-list-p (first list))) ; a parenthesis too many
         (begins-entry-p (first list) '("USED-SURFACES"))
         (> (count-given +grasp-keys+) 1)
-        (> (count-given +dimensions+) 1))))
+        (> (count-given (mapcar #'first +dimensions+)) 1))))
 
 (defun defined-name-p (name)
   "True if NAME has a meaning in the grasp file in force."
@@ -271,7 +292,8 @@ to two keys."
 
 (defun meant-dimension (name)
   "Return the phrase that suggests the dimension that NAME was probably meant to be."
-  (suggestion (name-text name) (mapcar #'car (knowledge-gripper *knowledge*))))
+  (suggestion (name-text name) (mapcar #'car (append (knowledge-gripper *knowledge*)
+                                                     +dimensions+))))
 
 (defun set-variable (name value)
   "Give the variable NAME the VALUE, unless that is a number for a dimension that is misspelt."

@@ -54,10 +54,11 @@ symbols of the current package.  Signals a NO-GRASP-ERROR."
 (defun gripper (&optional (knowledge *knowledge*))
   "Return the property list of the gripper of KNOWLEDGE, (FINGER-LENGTH 4 ...), in cm, with the
 symbols of the current package.  KNOWLEDGE-GRIPPER gives strings and doubles."
-  (let ((file (knowledge-grasp-file (check-knowledge-argument
-                                     knowledge "(getf (gripper) name) gives one dimension"))))
-    (as-typed (flat-list (nth-value 1 (definition-form (find-if #'gripper-form-p
-                                                                (data-file-forms file))))))))
+  (let ((file (gripper-source (check-knowledge-argument
+                               knowledge "(getf (gripper) name) gives one dimension"))))
+    (loop for part in (flat-list (nth-value 1 (definition-form (find-if #'gripper-form-p
+                                                                        (data-file-forms file)))))
+          collect (if (stringp part) part (as-typed part))))) ; MODEL is a string
 
 (defun typed-possible-grasps ()
   "Return POSSIBLE-GRASPS of *PLAN*, the best first: name, quality, matching, as one would type

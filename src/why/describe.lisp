@@ -102,15 +102,41 @@ which rules test it; or, of a preliminary assertion, its threshold.  Returns its
              (format stream "In words: a box may say that ~a.  What it does not say is false.~%"
                      (sentence-text words surfaces)))
             (t (format stream "~a~@[ (~{~a~^ ~})~] is a preliminary assertion~@[; its threshold is ~
-                               ~a~].~%" words surfaces (threshold-text input))))
+                               ~a~].~%" words surfaces (threshold-text words input))))
       (format stream "It is tested by ~a.~%"
               (listed (or (testers predicate knowledge) '("no rule")))))
     predicate))
 
-(defun threshold-text (input)
-  "Return the threshold of the prepared INPUT, \"FINGER-WIDTH, 0.6\", or NIL if it has none."
-  (let ((name (input-row-dimension (prepared-input-row input))))
-    (and name (format nil "~a, ~a" name (number-text (prepared-input-threshold input))))))
+(defun threshold-text (words input)
+  "Return the threshold of the prepared INPUT, \"FINGER-WIDTH, 0.6\", or NIL if it has none.  INPUT is NIL
+if the gripper lacks that of the assertion WORDS."
+  (let ((name (input-row-dimension (if input
+                                       (prepared-input-row input)
+                                       (find words *inputs* :key #'input-row-name :test #'string=)))))
+    (cond (input (and name (format nil "~a, ~a" name (number-text (prepared-input-threshold input)))))
+          (t (format nil "~a, which the gripper lacks, so it never holds" name)))))
+
+(defun dimension-users (name knowledge)
+  "Return the rules and grasps of KNOWLEDGE that use the gripper's dimension NAME."
+  (remove-duplicates (loop for use in (knowledge-uses knowledge)
+                           when (string= name (dimension-use-dimension use))
+                             collect (dimension-use-user use))
+                     :test #'string= :from-end t))
+
+(defun describe-gripper (&key (knowledge *knowledge*) (stream *standard-output*))
+  "Write the gripper of KNOWLEDGE to STREAM: its model, where it is from, its dimensions, and which rules
+and grasps use each.  Returns its dimensions, an alist from name to double."
+  (let ((knowledge (check-knowledge-argument knowledge)))
+    (plainly
+      (format stream "~:[This gripper~;~:*~a~]~@[ is from ~a~].~%" (knowledge-model knowledge)
+              (data-file-name (gripper-source knowledge)))
+      (loop for (name . number) in (knowledge-gripper knowledge)
+            for (nil nil meaning part) = (assoc name (graspbase-rows (knowledge-graspbase knowledge))
+                                                :test #'string=)
+            for users = (append (dimension-users name knowledge) (and part (list part)))
+            do (format stream "~a ~a~@[ ~a~].~%  Used by ~a.~%" name (number-text number) meaning
+                       (listed (or users '("no rule and no grasp"))))))
+    (knowledge-gripper knowledge)))
 
 (defun describe-grasp (name &key (knowledge *knowledge*) (stream *standard-output*))
   "Write the grasp NAME to STREAM: its form, in words, where it is from, and which rules try it.
