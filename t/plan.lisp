@@ -19,7 +19,7 @@
   "Return the answer of READER about OBJECT, of PLAN if it wants that as well."
   (if (member reader '(supergrip:candidate-exact-radius supergrip:candidate-squeeze
                        supergrip:candidate-friction-margin supergrip:candidate-contacts
-                       supergrip:candidate-hand
+                       supergrip:candidate-hand supergrip:candidate-world
                        supergrip:candidate-wrench supergrip:candidate-twist
                        supergrip:candidate-sure supergrip:candidate-failure
                        supergrip:candidate-load supergrip:candidate-force-need
