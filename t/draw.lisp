@@ -466,6 +466,31 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                      (is (drawn-p (supergrip:candidate-force-radius candidate)
                                   (- (at "hidden" "x1") left))))))))))
 
+(test pictures-of-exact-plans-say-what-their-numbers-are
+  "u_w is the paper's; what an exact plan counts is called the exact radius, a bound of it a bound."
+  (with-folder (folder)
+    (let* ((plan (supergrip:plan *good-box* :index :exact))
+           (best (supergrip:plan-best plan))
+           (bound (find-if #'supergrip:candidate-bound-p (supergrip:plan-possible plan))))
+      (flet ((shown (draw count)
+               (uiop:read-file-string
+                (apply draw plan (in-folder folder "p") (and count (list :count count))))))
+        (let ((picture (shown #'supergrip-draw:draw-quality 20)))
+          (dolist (words (list (format nil "Forces, exact radius = ~,3f, limited about Y"
+                                       (supergrip:candidate-force-radius best))
+                               (format nil "Forces, exact radius ≤ ~,3f"
+                                       (supergrip:candidate-force-radius bound))
+                               (format nil "Q ≤ ~,3f" (supergrip:candidate-quality bound))
+                               "u_w = 1.095"))
+            (is (search (supergrip-draw::safe words) picture) words))
+          (is (not (search "Forces, u_w" picture))))
+        (is (search "1.095" (shown #'supergrip-draw:draw-section nil)))
+        (let ((page (shown #'supergrip-draw:report nil)))
+          (is (search "times what the task needs on all axes together." page))
+          (is (search (supergrip-draw::safe
+                       (format nil "forces ≤ ~,3f" (supergrip:candidate-force-radius bound)))
+                      page)))))))
+
 (defun radius-in-plane (candidate plan axes)
   "Return the exact radius of CANDIDATE of PLAN for what is needed on AXES alone."
   (exact-radius-of

@@ -7,6 +7,7 @@
 ;;;; sbcl --script t/study.lisp choice                      exact choices, candidate by candidate
 ;;;; sbcl --script t/study.lisp lifting                     what sound lifting loses
 ;;;; sbcl --script t/study.lisp lying                       what changes when the frame of a box is turned
+;;;; sbcl --script t/study.lisp index                       u_w beside the exact radius
 ;;;; sbcl --script t/study.lisp radii | python3 t/radii.py   exact radii by other means
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
@@ -299,6 +300,30 @@ candidate certified alone."
               (aref sorted 0) (aref sorted (floor (length sorted) 2))
               (aref sorted (floor (* 0.9 (length sorted))))))))
 
+(defun quantiles (numbers shares)
+  (let ((sorted (sort (coerce numbers 'vector) #'<)))
+    (loop for share in shares collect (aref sorted (floor (* share (1- (length sorted))))))))
+
+(defun print-index (kind boxes)
+  "Print how the exact radius of the best grasps of BOXES of KIND compares with u_w, by default."
+  (loop for plan in (plans boxes supergrip:*knowledge*)
+        for best = (supergrip:plan-best plan)
+        for u-w = (and best (supergrip:candidate-force-radius best))
+        for (upper lower) = (and u-w (multiple-value-list
+                                      (supergrip:candidate-exact-radius best plan)))
+        when u-w
+          count t into all and collect (/ upper u-w) into ratios
+          and count (and lower (> lower (* 1.0001d0 u-w))) into above
+          and count (< upper (* 0.9999d0 u-w)) into below
+          and count (>= u-w 1) into enough
+          and count (and (>= u-w 1) (< upper 1)) into not-enough
+        finally (format t "~d best grasps, ~a: exact radius / u_w: ~{least ~,2f, 5 % below ~,2f, ~
+                           median ~,2f, 95 % below ~,2f, greatest ~,2f~}~%"
+                        all kind (quantiles ratios '(0 0.05 0.5 0.95 1)))
+                (format t "~2tthe exact radius is above u_w in ~d, below it in ~d; of ~d with u_w from ~
+                           1 on, ~d can't do the task~%"
+                        above below enough not-enough)))
+
 (defun up-to-half-turns (candidates)
   "Return what CANDIDATES are, a list: those that the paper's index takes for the same are one."
   (let ((same (supergrip::index-same (supergrip::index-named :paper))))
@@ -404,6 +429,8 @@ grasp, or one elsewhere on the box, is then the best."
         ((equal what "lifting") (loop for (kind maker) in (subseq *kinds* 0 2)
                                          do (print-lifting kind (boxes-of maker 2000 1))))
         ((equal what "lying") (print-lying 1000))
+        ((equal what "index") (loop for (kind maker) in (subseq *kinds* 0 2)
+                                    do (print-index kind (boxes-of maker 2000 1))))
         ((equal what "radii") (print-radii 300 (sb-ext:seed-random-state 1)))
         ((equal what "compare") (apply #'print-comparison files))
         (t

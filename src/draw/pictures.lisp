@@ -41,8 +41,13 @@ well it does."
                (setf best camera most score)))
     (values best most)))
 
-(defun quality-text (quality)
-  (format nil "Q = ~a" (index-text quality)))
+(defun at-most-text (candidate number)
+  "Return NUMBER, Q or u_w of CANDIDATE, with a sign if it is only a bound."
+  (format nil "~:[~;≤ ~]~a" (candidate-bound-p candidate) (index-text number)))
+
+(defun quality-text (candidate)
+  (format nil "Q ~:[= ~;~]~a" (candidate-bound-p candidate)
+          (at-most-text candidate (candidate-quality candidate))))
 
 (defun matching-text (matching)
   (format nil "N1 N2 O1 O2 A1 A2 = ~{~a~^ ~}" matching))
@@ -111,7 +116,7 @@ well it does."
     (key-need 6 "what the task needs at the grasp centre")
     (list 0 "◀ the axis that limits")
     (key-sure 26 "what it surely bears on all axes together")
-    (key-index 6 "u_w"))
+    (key-index 6 "u_w, the paper’s index"))
   "The key to the bars.")
 
 (defun key-places (signs x y width)

@@ -92,7 +92,7 @@
                                 (place-text (contact-position contact))))))
 
 (defun candidate-title (candidate)
-  (format nil "~a, ~a" (candidate-grasp candidate) (quality-text (candidate-quality candidate))))
+  (format nil "~a, ~a" (candidate-grasp candidate) (quality-text candidate)))
 
 (defun candidate-description (candidate plan subject)
   "Return what a picture of CANDIDATE shows, for those who can't see it."

@@ -4,12 +4,6 @@
 
 (defparameter +axis-names+ '("along X" "along Y" "along Z" "about X" "about Y" "about Z"))
 
-(defun force-rows (candidate plan)
-  "Return (have need) on each axis for forces: gravity's load taken off, the offset's effect added."
-  (mapcar #'list
-          (mapcar #'- (candidate-wrench candidate plan) (candidate-load candidate plan))
-          (candidate-force-need candidate plan)))
-
 (defun velocity-rows (candidate plan)
   "Return (have need) on each axis for velocities: the offset's effect added."
   (mapcar #'list (candidate-twist candidate plan) (candidate-velocity-need candidate plan)))
@@ -59,9 +53,7 @@ y below."
                (list x (+ y 16)) :class "bold")
     (draw-text (fitting (matching-text (candidate-matching candidate)) "soft" width)
                (list x (+ y 35)) :class "soft")
-    (draw-text (radius-text "Forces, u_w" (candidate-force-radius candidate)
-                            (candidate-force-axis candidate))
-               (list x (+ y 66)))
+    (draw-text (force-text "Forces" candidate plan) (list x (+ y 66)))
     (let ((below (draw-rows (force-rows candidate plan) (candidate-force-axis candidate)
                             (greatest-of #'force-rows candidates plan) x (+ y 76) width)))
       (when (strength-upper strength)
@@ -82,12 +74,18 @@ y below."
       (format nil "~a = ~a, limited ~a" name (index-text radius) axis)
       (format nil "~a: none needed" name)))
 
-(defun quality-words (strength)
-  "Return what the bars of STRENGTH show, for those who can't see them."
+(defun force-text (kind candidate plan)
+  "Return the radius of forces, called KIND, of CANDIDATE, and what radius PLAN takes for it."
+  (let ((name (format nil "~a, ~:[u_w~;exact radius~]" kind (eq (plan-index plan) :exact))))
+    (if (candidate-bound-p candidate)
+        (format nil "~a ≤ ~a" name (index-text (candidate-force-radius candidate)))
+        (radius-text name (candidate-force-radius candidate) (candidate-force-axis candidate)))))
+
+(defun quality-words (strength plan)
+  "Return what the bars of STRENGTH of PLAN show, for those who can't see them."
   (let ((candidate (strength-candidate strength)))
     (format nil "~a: ~a; ~a.~@[ ~a~]" (candidate-title candidate)
-            (radius-text "forces, u_w" (candidate-force-radius candidate)
-                         (candidate-force-axis candidate))
+            (force-text "forces" candidate plan)
             (radius-text "velocities, u_t" (candidate-velocity-radius candidate)
                          (candidate-velocity-axis candidate))
             (strength-words strength))))
@@ -102,7 +100,8 @@ y below."
     (with-picture (width (+ 104 (* high rows) (key-height +quality-key+ (- width 48)))
                    (format nil "Have against need, ~a" (box-text (plan-box plan)))
                    (format nil "~:[No grasp is possible.~;~:*~{~a~^ ~}~]"
-                           (mapcar #'quality-words strengths)))
+                           (loop for strength in strengths
+                                 collect (quality-words strength plan))))
       (draw-heading (if strengths "What each grasp has, against what the task needs"
                         "No grasp is possible")
                     (list (format nil "~a. Forces in finger forces, torques in finger force × cm, ~

@@ -39,10 +39,12 @@ forces in units of one finger’s greatest normal force, torques in their produc
   (let ((box (plan-box plan)))
     (if (box-name box) (box-text box) (format nil "A box, ~a" (box-text box)))))
 
-(defun times-text (kind radius axis)
-  "Return how much a grasp has of KIND, RADIUS times what is needed, AXIS being the limit."
-  (format nil "~a: the grasp has ~a times what the task needs on the tightest axis, ~a."
-          kind (index-text radius) axis))
+(defun times-text (kind radius axis &optional together)
+  "Return how much a grasp has of KIND, RADIUS times what is needed, AXIS being the limit, or all axes
+TOGETHER."
+  (format nil "~a: the grasp has ~a times what the task needs on ~:[the tightest axis, ~a~;all axes ~
+               together~]."
+          kind (index-text radius) together axis))
 
 (defun fingers-words (subject)
   "Return which fingers are on which face."
@@ -69,10 +71,11 @@ forces in units of one finger’s greatest normal force, torques in their produc
                         (format nil "The quality index is ~a~@[; the next best, ~a~]."
                                 (index-text (candidate-quality best))
                                 (and next (format nil "~a, has ~a" (candidate-grasp next)
-                                                  (index-text (candidate-quality next)))))
+                                                  (at-most-text next (candidate-quality next)))))
                         (and (candidate-force-axis best)
                              (times-text "Forces" (candidate-force-radius best)
-                                         (candidate-force-axis best)))
+                                         (candidate-force-axis best)
+                                         (eq (plan-index plan) :exact)))
                         (and (candidate-velocity-axis best)
                              (times-text "Velocities" (candidate-velocity-radius best)
                                          (candidate-velocity-axis best)))))))))
@@ -80,8 +83,8 @@ forces in units of one finger’s greatest normal force, torques in their produc
 (defun weak-text (kind radius)
   "Return what a RADIUS below 1 of KIND means, or NIL for one that is not below."
   (and radius (< radius 1)
-       (format nil "~a: ~a is below 1, so on its tightest axis the grasp has less than the task may ~
-                    need." kind (index-text radius))))
+       (format nil "~a: ~a is below 1, so by the index, on its tightest axis, the grasp has less than ~
+                    the task may need." kind (index-text radius))))
 
 (defun together-text (plan)
   "Return what the best grasp of PLAN bears on all axes together, or NIL if no force is needed."
@@ -103,9 +106,9 @@ forces in units of one finger’s greatest normal force, torques in their produc
         (:p :class "soft"
             (say "The quality index Q compares the grasps of one task: higher is better.  It ~
                   is neither a percentage nor a probability, and says nothing across tasks.  A radius ~
-                  of 1 is exactly enough on the tightest axis; above 1 there is something to ~
-                  spare there.~@[  ~a~]~@[  ~a~]~@[  ~a~]"
-                 (weak-text "Forces" (candidate-force-radius best))
+                  of 1 is just enough, by the index, on the tightest axis alone.~@[  ~a~]~@[  ~a~]~@[  ~a~]"
+                 (and (eq (plan-index plan) :paper) ; else what follows says it
+                      (weak-text "Forces" (candidate-force-radius best)))
                  (weak-text "Velocities" (candidate-velocity-radius best))
                  (together-text plan)))))))
 
@@ -236,7 +239,8 @@ needed."
                   for candidate in candidates
                   for place from 1
                   do (put-figure
-                      (with-picture (374 high (candidate-title candidate) (quality-words strength))
+                      (with-picture (374 high (candidate-title candidate)
+                                         (quality-words strength plan))
                         (draw-candidate-quality strength strengths plan place 12 12 350))
                       nil)))
       (put-key +quality-key+))))
@@ -246,16 +250,19 @@ needed."
 (defun candidate-words (candidate plan)
   "Return what became of CANDIDATE."
   (multiple-value-bind (step sentence) (candidate-failure candidate plan)
-    (if step
-        (format nil "~(~a~): ~a" step sentence)
-        (format nil "~@[forces ~a~]~:[~;, ~]~@[velocities ~a~]"
-                (radius-words (candidate-force-radius candidate) (candidate-force-axis candidate))
-                (and (candidate-force-radius candidate) (candidate-velocity-radius candidate))
-                (radius-words (candidate-velocity-radius candidate)
-                              (candidate-velocity-axis candidate))))))
+    (let ((force (candidate-force-radius candidate))
+          (velocity (candidate-velocity-radius candidate)))
+      (if step
+          (format nil "~(~a~): ~a" step sentence)
+          (format nil "~@[forces ~a~]~:[~;, ~]~@[velocities ~a~]"
+                  (and force (radius-words (at-most-text candidate force)
+                                           (candidate-force-axis candidate)))
+                  (and force velocity)
+                  (and velocity (radius-words (index-text velocity)
+                                              (candidate-velocity-axis candidate))))))))
 
 (defun radius-words (radius axis)
-  (and radius (format nil "~a, limited ~a" (index-text radius) axis)))
+  (format nil "~a, limited ~a" radius axis))
 
 (defun put-candidates (plan)
   "Write the table of all candidates of PLAN, the possible ones first, the best on top."
@@ -274,7 +281,9 @@ needed."
                     (:span :class "face" (say "~{~a~^ ~}" (candidate-matching candidate))))
                (:td :class "number"
                     (say "~:[not possible~;~:*~a~]" (and (candidate-quality candidate)
-                                                               (index-text (candidate-quality candidate)))))
+                                                               (at-most-text
+                                                                candidate
+                                                                (candidate-quality candidate)))))
                (:td (say "~a" (candidate-words candidate plan))))))))))
 
 ;;; Facts and rules

@@ -67,18 +67,18 @@ no other force or torque being exerted: points in units of what the task needs."
 
 (defun section-signs (strength)
   "Return what the picture shows for STRENGTH: lists of class, number and text."
-  (let ((candidate (strength-candidate strength)))
-    (remove nil
-            `(("need" "1" "what the task needs, in every direction")
-              ("hidden" ,(index-text (candidate-force-radius candidate))
-                        "u_w, the paper’s index. It looks at one axis at a time, and takes the ~
-                         dashed line for what the grasp can do.")
-              ("ring" ,(true-radius-text strength)
-                      "the true radius, on all axes together. In this plane, the contacts can ~
-                       really do what is filled.")
-              ,(and (strength-sure strength)
-                    `("dots" ,(sure-text strength)
-                             "what is sure from the strength on each axis alone"))))))
+  (remove nil
+          `(("need" "1" "what the task needs, in every direction")
+            ,(and (strength-u-w strength)
+                  `("hidden" ,(index-text (strength-u-w strength))
+                             "u_w, the paper’s index. It looks at one axis at a time, and takes ~
+                              the dashed line for what the grasp can do."))
+            ("ring" ,(true-radius-text strength)
+                    "the true radius, on all axes together. In this plane, the contacts can ~
+                     really do what is filled.")
+            ,(and (strength-sure strength)
+                  `("dots" ,(sure-text strength)
+                           "what is sure from the strength on each axis alone")))))
 
 (defun draw-signs (signs x y width)
   "Draw the key of SIGNS, lists of class, number and text, from X Y, WIDTH wide."
@@ -115,7 +115,8 @@ scale."
   (let* ((candidate (strength-candidate strength))
          (reach (section-reach strength))
          (section (cut-off (section-points candidate plan axes) reach))
-         (index (cut-off (apply #'circle-points (index-ratios candidate plan axes)) reach))
+         (index (and (strength-u-w strength)
+                     (cut-off (apply #'circle-points (index-ratios candidate plan axes)) reach)))
          (task (circle-points 1 1))
          (place (fit-points (append section index task) area)))
     (flet ((outline (points class) (draw-polygon (mapcar place points) class))
@@ -125,7 +126,7 @@ scale."
       (destructuring-bind (left low wide high) (bounds (append section index task))
         (axis (list left 0) (list (+ left wide) 0))
         (axis (list 0 low) (list 0 (+ low high))))
-      (outline index "hidden")
+      (when index (outline index "hidden"))
       (outline task "need")
       (loop for (radius class) in `((,(shown-radius strength) "ring")
                                     (,(strength-sure strength) "dots"))

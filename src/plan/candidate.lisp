@@ -23,7 +23,8 @@
   (and (eq (candidate-outcome candidate) :possible) (>= limit 0) (axis-name limit)))
 
 (defun candidate-force-axis (candidate)
-  "Return the axis that limits u_w of CANDIDATE, as \"about Y\", or NIL if no force is needed."
+  "Return the axis that limits u_w of CANDIDATE, as \"about Y\", or NIL if no force is needed.  In a
+plan by the exact index it is that of the greatest component of the worst motion."
   (axis-or-nil candidate (%candidate-force-limit candidate)))
 
 (defun candidate-velocity-axis (candidate)
@@ -31,7 +32,9 @@
   (axis-or-nil candidate (%candidate-velocity-limit candidate)))
 
 (defun candidate-force-radius (candidate)
-  "Return u_w of CANDIDATE, or NIL if the task needs no force or it is not possible."
+  "Return u_w of CANDIDATE, or NIL if the task needs no force or it is not possible.  In a plan by the
+exact index it is the certified radius; or the sure one if there is no certificate; or, if
+CANDIDATE-BOUND-P, an upper bound."
   (and (candidate-force-axis candidate) (%candidate-force-radius candidate)))
 
 (defun candidate-velocity-radius (candidate)

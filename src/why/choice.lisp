@@ -202,13 +202,15 @@ choice to change."
 
 (defun write-truth (truth stream)
   "Write what TRUTH, an EXACT-LIMIT, says of the contacts, if there is one."
-  (when truth
-    (destructuring-bind (lower upper one)
-        (number-texts (or (exact-limit-certified truth) 0) (exact-limit-upper truth) 1)
-      (declare (ignore one))
-      (format stream "Exactly, they bear ~:[at most ~*~;from ~a to ~]~a times as much; least where the ~
-                      box is ~a.~%"
-              (exact-limit-certified truth) lower upper (exact-limit-direction truth)))))
+  (cond ((null truth))
+        ((minusp (exact-limit-upper truth))
+         (format stream "Exactly, the contacts can't hold the weight.~%"))
+        (t (destructuring-bind (lower upper one)
+               (number-texts (or (exact-limit-certified truth) 0) (exact-limit-upper truth) 1)
+             (declare (ignore one))
+             (format stream "Exactly, they bear ~:[at most ~*~;from ~a to ~]~a times as much; least ~
+                             where the box is ~a.~%"
+                     (exact-limit-certified truth) lower upper (exact-limit-direction truth))))))
 
 (defun below-one-p (number) (< number (- 1 +tie+)))
 
@@ -216,7 +218,7 @@ choice to change."
   "Write what a radius below 1, and Q, mean."
   (let ((truth (choice-truth answer)) (velocity (choice-velocity answer))
         (meaning "which is enough if the needs only say what matters more"))
-    (when (and truth (below-one-p (exact-limit-upper truth)))
+    (when (and truth (<= 0 (exact-limit-upper truth)) (below-one-p (exact-limit-upper truth)))
       (format stream "The contacts bear at most ~a of the force asked for, ~a.~%"
               (first (number-texts (exact-limit-upper truth) 1)) meaning))
     (when (and velocity (below-one-p (limit-radius velocity)))
