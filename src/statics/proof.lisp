@@ -13,7 +13,7 @@
 ;;;; the fingers can exert in the worst motion met.  The next ones are the greatest in the mean of
 ;;;; the vertices where the box fails, weighed by how much it fails there.  If even the greatest
 ;;;; power in the mean is less than the mean of GOAL DEMAND, no wrench proves the box.  Then, or
-;;;; when it fails slowly, the box is cut across its longest edge.
+;;;; when it fails slowly, the box is cut across an edge: where W and the task differ most over it.
 ;;;;
 ;;;; With FRICTION sought, GOAL is 1, and the friction U grows instead of GOAL falling: it is kept a
 ;;;; little above LEAST, the greatest friction that a motion was found to need.
@@ -244,19 +244,21 @@ it fails, and the mean size of the task there into MEAN-SIZE.  Return NIL if it 
 (declaim (inline best-share))
 (defun best-share (values others slack)
   "Return the share T of OTHERS in a mixture with VALUES for which the squares of what is below
-SLACK are least: at most four steps of Newton's."
+SLACK are least: at most six steps of Newton's.  What is below is found without a jump."
   (declare (type vertices values others) (double-float slack) (optimize speed))
   (let ((share 0d0))
     (declare (double-float share))
-    (dotimes (i 4 share)
+    (dotimes (i 6 share)
       (let ((rise 0d0) (bend 0d0))
         (declare (double-float rise bend))
         (dotimes (j 32)
           (let* ((slope (- (aref others j) (aref values j)))
-                 (below (- slack (+ (aref values j) (* share slope)))))
-            (when (> below 0d0)
-              (incf rise (* below slope))
-              (incf bend (* slope slope)))))
+                 (below (- slack (+ (aref values j) (* share slope))))
+                 (size (abs below))
+                 (part (* 0.5d0 (+ size below)))          ; BELOW or 0
+                 (counts (/ part (+ size 1d-290))))       ; 1 or 0
+            (incf rise (* part slope))
+            (incf bend (* counts slope slope))))
         (unless (> bend 0d0) (return share))
         (let ((next (max 0d0 (min 1d0 (+ share (/ rise bend))))))
           (when (<= (abs (- next share)) 1d-6) (return next))
@@ -324,19 +326,31 @@ SLACK are least: at most four steps of Newton's."
                           (truncate (the (double-float 0d0 5d0) (aref stack (+ top 18)))))
           (p-top p) top)))
 
+(defun edge-to-cut (p)
+  "Return the axis across which to cut the box of P: of its edges, the one over which W, the wrench
+of most power in the motion X, and GOAL times the task there, its tangent, differ most.  To an edge
+without a difference half a wrench of length 1 is given."
+  (declare (type proof p) (optimize speed))
+  (let* ((half (p-half p)) (x (p-x p)) (w (p-w p)) (a (p-a p)) (demand (p-demand p))
+         (goal (p-goal p)) (size (max 1d-200 (size-of a x)))
+         (most -1d0) (edge 0))
+    (declare (double-float most) (type (integer 0 5) edge))
+    (dotimes (k 6 edge)
+      (let* ((task (* goal (+ (/ (* (aref a k) (aref x k)) size) (aref demand k))))
+             (difference (* (aref half k) (+ 0.5d0 (abs (- (aref w k) task))))))
+        (when (> difference most)
+          (setf most difference edge k))))))
+
 (defun cut (p)
   "Put the two halves of the box of P on the stack."
   (declare (type proof p) (optimize speed))
-  (let* ((middle (p-middle p)) (half (p-half p)) (longest 0))
-    (declare (type (integer 0 5) longest))
-    (dotimes (k 6)
-      (when (> (aref half k) (aref half longest)) (setf longest k)))
-    (let ((quarter (* 0.5d0 (aref half longest))) (centre (aref middle longest)))
-      (setf (aref half longest) quarter
-            (aref middle longest) (+ centre quarter))
-      (push-box p)
-      (setf (aref middle longest) (- centre quarter))
-      (push-box p))))
+  (let* ((middle (p-middle p)) (half (p-half p)) (edge (edge-to-cut p))
+         (quarter (* 0.5d0 (aref half edge))) (centre (aref middle edge)))
+    (setf (aref half edge) quarter
+          (aref middle edge) (+ centre quarter))
+    (push-box p)
+    (setf (aref middle edge) (- centre quarter))
+    (push-box p)))
 
 (defun put-face (p face side)
   "Make the box of P the FACE of the cube on SIDE, 1 or -1, or the part of it that mirrors leave."
