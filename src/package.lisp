@@ -13,7 +13,8 @@
   (:shadow #:assertions)
   (:import-from :supergrip-statics #:exact-radius #:holds-p #:contact-forces #:wrench-entries
                 #:least-squeeze #:least-friction #:sure-radius #:sure #:make-grip #:set-finger
-                #:computable-p #:grip-power #:grip-radius #:grip-holds-p #:grip-closed-p #:grip-squeeze
+                #:computable-p #:same-contacts-p #:grip-power #:grip-radius #:grip-holds-p
+                #:grip-closed-p #:grip-squeeze
                 #:grip-least-friction #:grip-entry #:grip-entries #:mobility)
   (:implement :supergrip :supergrip-data :supergrip-chainer)
   (:lock t)

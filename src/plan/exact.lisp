@@ -13,6 +13,8 @@ motion WORST shows; LOWER, certified, or NIL.  STAGE says what UPPER comes of: t
 from them, or a whole :SEARCH."
   grip (upper 0d0 :type double-float) (lower nil) (worst nil) (stage :axes :type symbol))
 
+(defconstant +gap+ 0.01d0 "How far below the upper value a certified one may be, relative.")
+(defconstant +absolute+ 0.002d0 "The same, if that is more.")
 
 (defun contacts-grip (candidate workspace
                       &optional (friction (%box-friction (workspace-box workspace))))
@@ -89,9 +91,9 @@ from them, or a whole :SEARCH."
                    (strength-lower strength) lower
                    (strength-worst strength) worst))))
     (ecase (strength-stage strength)
-      (:axes (look 0.01d0 0.002d0 0)
+      (:axes (look +gap+ +absolute+ 0)
        (setf (strength-stage strength) (if (strength-lower strength) :search :descents)))
-      (:descents (look)
+      (:descents (look +gap+ +absolute+)
        (setf (strength-stage strength) :search)))))
 
 (defun worst-axis (worst need)
@@ -137,6 +139,17 @@ one or, if there is none, the sure radius."
     (or (> one other)
         (and (= one other) (%candidate-bound b) (not (%candidate-bound a))))))
 
+(defun share-strengths (candidates workspace)
+  "Let those of CANDIDATES that have the same contacts have one strength, that of the first."
+  (loop for (candidate . others) on candidates
+        for strength = (%candidate-strength candidate)
+        do (dolist (other others)
+             (when (and (not (eq (%candidate-strength other) strength))
+                        (same-contacts-p (strength-grip (%candidate-strength other))
+                                         (strength-grip strength)))
+               (setf (%candidate-strength other) strength)
+               (rate-exactly other workspace)))))
+
 (defun choose-exactly (workspace log)
   "Return the best candidate in LOG, the latest first, at the box of WORKSPACE, or NIL.  Its quality is
 no bound, and no less than that of any other, bound or not; and so are the next ones, *CERTIFIED* in
@@ -145,13 +158,16 @@ all."
     (let ((possible (reverse (remove-if-not (lambda (entry)
                                               (and (candidate-p entry) (possible-p entry)))
                                             log))))
+      (share-strengths possible workspace)
       (loop
         (let* ((ranked (stable-sort (copy-list possible) #'better-p))
                (next (find-if #'%candidate-bound ranked
                               :end (min *certified* (length ranked)))))
           (unless next (return (first ranked)))
           (look-closer (%candidate-strength next) (workspace-box workspace))
-          (rate-exactly next workspace))))))
+          (dolist (candidate possible)
+            (when (eq (%candidate-strength candidate) (%candidate-strength next))
+              (rate-exactly candidate workspace))))))))
 
 (defparameter +each-alone+
   (let ((sets (make-array 24 :element-type '(unsigned-byte 24))))
@@ -179,17 +195,22 @@ be computed with."
               (and (computable-p ,grip (gravity-on ,box))
                    (progn ,@body)))))))
 
-(defun candidate-exact-radius (candidate plan &key (gap 0.01d0) (absolute 0.002d0))
+(defun candidate-exact-radius (candidate plan &key (gap +gap+) (absolute +absolute+))
   "Return what the contacts of CANDIDATE of PLAN can really do, by whatever index the plan was made:
 the exact force radius, an upper value, the certified lower one, or NIL, and the worst motion, a list
 of six, as EXACT-RADIUS does, which explains GAP and ABSOLUTE.  NIL if it is not possible, the task
 needs no force, or places or weight are too large to compute with."
-  (unless (every #'zerop (%box-force (plan-box (need-plan plan))))
-    (with-grip (grip box candidate plan)
-      (multiple-value-bind (upper lower worst)
-          (grip-radius grip (%box-force box) (gravity-on box)
-                       (coerce gap 'double-float) (coerce absolute 'double-float))
-        (values upper lower (coerce worst 'list))))))
+  (let ((gap (coerce gap 'double-float)) (absolute (coerce absolute 'double-float))
+        (strength (%candidate-strength candidate)))
+    (cond ((every #'zerop (%box-force (plan-box (need-plan plan)))) nil)
+          ((and strength (eq (strength-stage strength) :search)
+                (= gap +gap+) (= absolute +absolute+))
+           (values (strength-upper strength) (strength-lower strength)
+                   (coerce (strength-worst strength) 'list)))
+          (t (with-grip (grip box candidate plan)
+               (multiple-value-bind (upper lower worst)
+                   (grip-radius grip (%box-force box) (gravity-on box) gap absolute)
+                 (values upper lower (coerce worst 'list))))))))
 
 (defun candidate-squeeze (candidate &optional (plan *plan*))
   "Return the least cap on each finger's force with which the contacts of CANDIDATE of PLAN surely do

@@ -47,6 +47,19 @@ products have no value."
     (and (small-p (grip-friction grip)) (small-p (grip-soft-friction grip))
          (every #'small-p (grip-rows grip)) (every #'small-p gravity))))
 
+(defun same-contacts-p (a b)
+  "True if the grips A and B have the same contacts, in whatever order."
+  (declare (type grip a b))
+  (labels ((same-p (i grip j)
+             (loop for k below 6
+                   always (= (aref (grip-places a) (+ (* 6 i) k))
+                             (aref (grip-places grip) (+ (* 6 j) k)))))
+           (times (i grip)
+             (loop for j below (grip-count grip) count (same-p i grip j))))
+    (and (= (grip-count a) (grip-count b))
+         ;; Two fingers may be in one place.
+         (loop for i below (grip-count a) always (= (times i a) (times i b))))))
+
 (declaim (inline put-force))
 (defun put-force (rows start px py pz fx fy fz)
   "Put the wrench of the force F at the place P into ROWS from START."
