@@ -128,7 +128,8 @@ if the gripper lacks that of the assertion WORDS."
 and grasps use each.  Returns its dimensions, an alist from name to double."
   (let ((knowledge (check-knowledge-argument knowledge)))
     (plainly
-      (format stream "~:[This gripper~;~:*~a~]~@[ is from ~a~].~%" (knowledge-model knowledge)
+      (format stream "~:[This gripper~;~:*~a~]~@[ is from ~a~].~%"
+              (and (knowledge-model knowledge) (visible-text (knowledge-model knowledge)))
               (data-file-name (gripper-source knowledge)))
       (loop for (name . number) in (knowledge-gripper knowledge)
             for (nil nil meaning part) = (assoc name (graspbase-rows (knowledge-graspbase knowledge))
