@@ -42,7 +42,8 @@ best candidate, or NIL."
 
 (defun index-named (name)
   "Return the index NAME, a keyword, or signal an ARGUMENT-ERROR."
-  (or (find name *indices* :key #'index-name)
+  (or (loop for index of-type index in *indices*
+            when (eq name (index-name index)) return index)
       (refuse-argument "index is ~a; it is ~{~s~^ or ~}" (form-text name)
                        (mapcar #'index-name *indices*))))
 
@@ -136,15 +137,17 @@ A candidate that fails has OUTCOME, a keyword."
 
 (defun run-steps (workspace candidate)
   "Take CANDIDATE through the steps; its OUTCOME is the one it failed, or :POSSIBLE."
-  (declare (type candidate candidate))
-  (handler-case
-      (loop for step of-type try-step in (workspace-steps workspace)
-            do (setf (%candidate-outcome candidate) (try-step-outcome step))
-            always (funcall (try-step-test step) candidate workspace)
-            finally (setf (%candidate-outcome candidate) :possible))
-    ;; What has no value fails the step that it stands in.  The steps find it out by themselves;
-    ;; where a float trap is enabled, it may come first.
-    (arithmetic-error () nil)))
+  (declare (type candidate candidate) (type workspace workspace))
+  (let ((outcome :possible))
+    (handler-case
+        (loop for step of-type try-step in (workspace-steps workspace)
+              do (setf outcome (try-step-outcome step))
+              always (funcall (try-step-test step) candidate workspace)
+              finally (setf outcome :possible))
+      ;; What has no value fails the step that it stands in.  The steps find it out by themselves;
+      ;; where a float trap is enabled, it may come first.
+      (arithmetic-error () nil))
+    (setf (%candidate-outcome candidate) outcome)))
 
 (defun step-outcomes ()
   "Return what candidates may have, in the order of the steps; the last is :POSSIBLE."

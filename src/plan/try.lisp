@@ -27,20 +27,20 @@ before.  The log of MEMORY gets the candidates."
   (let* ((workspace (memory-client memory))
          (tried (workspace-tried workspace))
          (index (grasp-index grasp))
-         (same (funcall (index-same (workspace-index workspace)) grasp
-                        (workspace-box workspace)))
          (open (logand suggested
                        (aref (grasp-usable grasp) (%box-constrained (workspace-box workspace))))))
-    (declare (type workspace workspace) (type matching-set open)
-             (type (simple-array (unsigned-byte 24) (*)) same))
-    (loop
-      (let ((left (logandc2 open (aref tried index))))
-        (declare (type matching-set left))
-        (when (zerop left) (return))
-        (let ((matching (1- (integer-length (logand left (- left))))))
-          (setf (aref tried index) (logior (aref tried index) (aref same matching)))
-          (push (try-matching workspace grasp (svref +matchings+ matching))
-                (memory-log memory)))))))
+    (declare (type workspace workspace) (type matching-set open))
+    (unless (zerop (logandc2 open (aref tried index)))
+      (let ((same (funcall (index-same (workspace-index workspace)) grasp (workspace-box workspace))))
+        (declare (type (simple-array (unsigned-byte 24) (*)) same))
+        (loop
+          (let ((left (logandc2 open (aref tried index))))
+            (declare (type matching-set left))
+            (when (zerop left) (return))
+            (let ((matching (1- (integer-length (logand left (- left))))))
+              (setf (aref tried index) (logior (aref tried index) (aref same matching)))
+              (push (try-matching workspace grasp (svref +matchings+ matching))
+                    (memory-log memory)))))))))
 
 (defun matchings-giving (faces)
   "Return the set of the matchings that give the grasp faces the FACES, six of them, NIL for any."
