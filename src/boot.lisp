@@ -2,7 +2,7 @@
 ;;;;
 ;;;; Compiled files are kept where ASDF keeps them, and compiled again if they are damaged.  Where
 ;;;; that can't be written, or there is no home directory, the sources are loaded instead, which
-;;;; takes a few seconds.
+;;;; takes a few seconds.  What takes more than two seconds shows on a terminal how far it is.
 ;;;;
 ;;;; The session stays as it was: ASDF keeps its configuration, and an error offers its restarts.
 ;;;; Only where the debugger is off, as in a script, does an error end the process, with a message
@@ -43,11 +43,41 @@
               ((member name '("asdf" "uiop") :test #'equal) nil)
               (t (some (lambda (other) (funcall other name)) others))))))
 
+  (defvar *messages* *error-output* "Where messages go.")
+
+  (defun tell (control &rest arguments)
+    "Write a line to *MESSAGES*."
+    (format *messages* "~?~%" control arguments)
+    (finish-output *messages*))
+
+  (defvar *shown* nil "True while *MESSAGES* shows how far work is.")
+
+  (defun progress (check &optional (start (get-internal-real-time)))
+    "Return a function to be called after each file that is compiled, a CHECK as ASDF asks for, with CHECK, one
+or NIL, in it.  On a terminal it shows, two seconds after START, how many files there were."
+    (let ((count 0))
+      (lambda (&rest arguments)
+        (incf count)
+        (when (and (> (- (get-internal-real-time) start) (* 2 internal-time-units-per-second))
+                   (interactive-stream-p *messages*))
+          (setf *shown* t)
+          (format *messages* "~cSUPER-GRIP is compiled, which is done once: ~d file~:p" #\Return count)
+          (finish-output *messages*))
+        (or (null check) (apply check arguments)))))
+
+  (defun hide-progress ()
+    "Clear the line that PROGRESS has written."
+    (when (shiftf *shown* nil)
+      (format *messages* "~c~c[K" #\Return (code-char 27))
+      (finish-output *messages*)))
+
   (defun call-quietly (function &rest arguments)
     "Call FUNCTION, which uses ASDF, without a word, whatever the session reads and prints like."
-    (let ((search (list (finder))))
+    (let ((search (list (finder)))
+          (check (progress uiop:*compile-check*)))
       (with-standard-io-syntax
-        (let ((asdf:*system-definition-search-functions* search)
+        (let ((uiop:*compile-check* check)
+              (asdf:*system-definition-search-functions* search)
               (*print-readably* nil) (*compile-verbose* nil) (*compile-print* nil)
               (*load-verbose* nil) (*load-print* nil))
           (handler-bind (((or warning sb-ext:compiler-note) #'muffle-warning))
@@ -57,13 +87,6 @@
     (let ((class (and (find-package :supergrip-data)
                       (find-class (find-symbol "KNOWLEDGE-ERROR" :supergrip-data) nil))))
       (and class (typep condition class))))
-
-  (defvar *messages* *error-output* "Where messages go.")
-
-  (defun tell (control &rest arguments)
-    "Write a line to *MESSAGES*."
-    (format *messages* "~?~%" control arguments)
-    (finish-output *messages*))
 
   (defun end-script (condition hook)
     "Print CONDITION, which nothing has handled, and end the process."
@@ -110,7 +133,10 @@ that can be done."
   (defun load-system (system)
     "Load SYSTEM: its compiled files or, if they can't be written, its sources."
     (or (load-compiled system)
-        (call-quietly #'asdf:operate 'asdf:load-source-op system)))
+        (progn
+          (when (interactive-stream-p *messages*)
+            (tell "What is compiled can't be kept, so the sources are loaded: that takes some seconds."))
+          (call-quietly #'asdf:operate 'asdf:load-source-op system))))
 
   (defun find-library (name)
     "Make sure that ASDF finds the system NAME."
@@ -127,7 +153,8 @@ that can be done."
            ;; A script says what is wrong once; SBCL would say in which form of this file, too.
            (*error-output* (if script (make-broadcast-stream) *error-output*)))
       (mapc #'find-library needs)
-      (load-system system))))
+      (unwind-protect (load-system system)
+        (hide-progress)))))
 
 (load-quietly "supergrip")
 

@@ -31,6 +31,18 @@
              ("with HOME nowhere" nil "HOME=/nonexistent" "XDG_CACHE_HOME="))
            do (check-session name directory environment)))))
 
+(test compiling-shows-on-a-terminal-how-far-it-is
+  ;; However fast the machine: it began three seconds ago.
+  (let ((command (format nil "sbcl --noinform --no-userinit --non-interactive --load '~a' --eval '~a'"
+                         (uiop:native-namestring (project-file "src/boot.lisp"))
+                         "(funcall (supergrip-boot::progress nil (- (get-internal-real-time) (* 3 internal-time-units-per-second))))"))
+        (shown "SUPER-GRIP is compiled, which is done once: 1 file"))
+    (multiple-value-bind (status output errors) (run-process (list "sh" "-c" command))
+      (is (equal '(0 "" "") (list status output errors))))
+    (if (zerop (run-process '("sh" "-c" "script -qec true /dev/null < /dev/null")))
+        (is (search shown (nth-value 1 (run-process (list "script" "-qec" command "/dev/null")))))
+        (skip "no terminal"))))
+
 (test every-example-runs-and-ends
   (let ((examples (remove-if (lambda (name)
                                (member name '("pencil" "batch" "figures" "boxes") :test #'string=))
