@@ -7,7 +7,7 @@
   "Return the box that TEXT, JSON, describes."
   (let ((supergrip::*notation* :json))
     (supergrip::canonical-box
-     (supergrip::json-description (supergrip-data:read-json (supergrip-data:string-source text)))
+     (supergrip::json-description (supergrip::read-json (supergrip-data:string-source text)))
      nil 1)))
 
 (test a-key-of-a-box-is-one-row

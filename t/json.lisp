@@ -5,17 +5,17 @@
 
 (defun plain-json (value)
   "Return VALUE, as READ-JSON returns it, in lists: (:ARRAY ...), (:OBJECT (key . value) ...)."
-  (cond ((supergrip-data:json-array-p value)
-         (cons :array (mapcar #'plain-json (supergrip-data:json-array-elements value))))
-        ((supergrip-data:json-object-p value)
-         (cons :object (loop for (key . member) in (supergrip-data:json-object-members value)
+  (cond ((supergrip::json-array-p value)
+         (cons :array (mapcar #'plain-json (supergrip::json-array-elements value))))
+        ((supergrip::json-object-p value)
+         (cons :object (loop for (key . member) in (supergrip::json-object-members value)
                              collect (cons key (plain-json member)))))
-        ((supergrip-data:json-literal-p value)
-         (intern (string-upcase (supergrip-data:json-literal-text value)) :keyword))
+        ((supergrip::json-literal-p value)
+         (intern (string-upcase (supergrip::json-literal-text value)) :keyword))
         (t value)))
 
 (defun read-json-text (text)
-  (plain-json (supergrip-data:read-json (supergrip-data:string-source text))))
+  (plain-json (supergrip::read-json (supergrip-data:string-source text))))
 
 (defun json-failure (text)
   (first (problem-texts (lambda () (read-json-text text)))))
@@ -71,7 +71,7 @@
 
 (test parts-of-an-object-have-places
   (let ((source (supergrip-data:string-source (format nil "{\"a\": [1,~% {\"b\": 2}]}"))))
-    (supergrip-data:read-json source)
+    (supergrip::read-json source)
     (loop for (path . place) in '(((0) 1 2) ((1) 1 7) ((1 0) 1 8) ((1 1 1) 2 8))
           do (is (equal place (multiple-value-list (supergrip-data:part-place source path)))
                  "~s" path))))

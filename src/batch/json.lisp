@@ -1,6 +1,6 @@
 ;;;; json.lisp -- the reader of JSON (RFC 8259, RFC 7464), with the tokens, limits and reports of reader.lisp.
 
-(in-package :supergrip-data)
+(in-package :supergrip)
 
 (defstruct (json-array (:constructor make-json-array (elements)))
   "A JSON array; ELEMENTS is a list."

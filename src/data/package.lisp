@@ -33,9 +33,8 @@ in them.")
    #:source #:string-source #:stream-source #:source-line #:source-column #:source-name
    #:read-datum #:skip-blanks #:end-of-data #:read-all #:record-start-line
    #:peek #:source-buffer #:source-position #:source-end #:utf-16-p
-   #:skip-to-record #:skip-record #:make-source #:part-place #:+mark+ #:+separator+
+   #:skip-to-record #:skip-record #:make-source #:part-place #:+mark+
    #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*
-   ;; JSON
-   #:read-json #:skip-to-json #:take-character #:skip-json #:json-array #:json-array-p #:make-json-array #:json-array-elements #:make-json-object
-   #:json-object #:json-object-p #:json-object-members #:json-literal #:json-literal-p
-   #:json-literal-text))
+   ;; the tools of readers
+   #:next #:fail #:fail-at #:deeper #:start-record #:end-record #:note-place #:skip-mark #:push-token
+   #:token-number #:digits-end #:character-description #:source-token #:source-depth #:source-inside))

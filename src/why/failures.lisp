@@ -88,11 +88,17 @@ CLOSED-AT tells of a friction whether it does."
 
 (defun load-shares (workspace)
   "Return the shares, six, that the load takes of what the grasp bears alone on each axis."
-  (map 'list #'bounded-ratio (workspace-load workspace) (workspace-wrench workspace)))
+  (declare (type workspace workspace))
+  (loop for load across (workspace-load workspace)
+        for borne across (workspace-wrench workspace)
+        collect (min (/ load borne) most-positive-double-float)))
 
 (defun total-share (shares)
-  "Return the sum of SHARES, at most the greatest double."
-  (bounded (reduce #'+ shares)))
+  "Return the sum of SHARES, doubles, at most the greatest double."
+  (let ((sum 0d0))
+    (declare (double-float sum))
+    (dolist (share shares (bounded sum))
+      (incf sum (the double-float share)))))
 
 (defun describe-lifting-failure (workspace)
   "Return in words that the load is too much: on one axis, or on several together."
