@@ -89,6 +89,18 @@
     (is (search "GRIP99 is not a fact" (error-text (supergrip:how 'grip99))))
     (is (search "there is no rule or grasp GRIP99" (error-text (supergrip:why-not 'grip99))))))
 
+(test how-wants-one-list
+  (let ((supergrip:*plan* (pencil-plan)))
+    (loop for (text . arguments)
+            in `(("a fact is one list: (how '(PARALLEL (Y2 Y1)))" parallel (y2 y1))
+                 ("a fact is one list: (how '(PARALLEL (Y2 Y1)))" parallel y2 y1)
+                 ("a fact is one list: (how '(OBJECT HAS CORNERS))" object has "corners")
+                 ("HOW takes a fact and a plan; 3 is too much" (parallel (y2 y1)) ,supergrip:*plan* 3)
+                 ("GRIP8 is not a plan: FORWARD-CHAIN, PLAN and TRY-GRASP return plans; HOW, WHY-NOT and REQUIRES answer about a name or a fact"
+                  (parallel (y2 y1)) grip8))
+          do (is (equal text (error-text (apply #'supergrip:how arguments)))))
+    (is (search "answer about a name or a fact" (error-text (supergrip:explain-best 'pinch-3-corner))))))
+
 (test why-not-wants-its-faces-in-a-list
   (let ((supergrip:*plan* (pencil-plan)))
     (is (equal "the six faces go in one list: (why-not 'PINCH-3-PARALLEL '(Y2 Y1 X2 X1 Z2 Z1))"

@@ -17,12 +17,29 @@ sentence without faces, if that names no rule or grasp.  NIL if it is none."
   (mapc #'print-answer answers)
   (if (rest answers) answers (first answers)))
 
-(defun how (fact &optional (plan (last-plan)))
-  "Print and return how FACT, as '(PARALLEL (Y2 Y1)), came to be known in PLAN: the tree of rules,
-bindings and facts down to the box; negations as assumed when they were tested.  Of a FACT with
-several lists of faces, as ASSERTIONS has them, return the list of the answers.  Where FACT is the name
-of a rule or a grasp, the answer is WHY-NOT's."
-  (let ((asked (asked-fact fact plan)) (name (name-of fact)))
+(defun check-one-list (fact arguments)
+  "Signal an ARGUMENT-ERROR if ARGUMENTS, those of HOW after the word FACT, are its other parts."
+  (labels ((parts (object)
+             (if (consp object)
+                 (append (parts (car object)) (parts (cdr object)))
+                 (and (word-text object) (list (word-text object))))))
+    (let ((parts (and (namep fact) (parts arguments))))
+      (when parts
+        (refuse-argument "a fact is one list: (how '(~a~{ ~a~}~@[ (~{~a~^ ~})~]))" fact
+                         (remove-if #'face-index parts) (remove-if-not #'face-index parts))))))
+
+(defun how (fact &rest arguments)
+  "(HOW FACT [PLAN]): print and return how FACT, as '(PARALLEL (Y2 Y1)), came to be known in PLAN, by
+default *PLAN*: the tree of rules, bindings and facts down to the box; negations as assumed when they
+were tested.  Of a FACT with several lists of faces, as ASSERTIONS has them, return the list of the
+answers.  Where FACT is the name of a rule or a grasp, the answer is WHY-NOT's."
+  (check-one-list fact arguments)
+  (let* ((plan (if arguments (pop arguments) (last-plan)))
+         (asked (asked-fact fact plan))
+         (name (name-of fact)))
+    (when arguments
+      (refuse-argument "HOW takes a fact and a plan; ~{~a~^, ~} is too much"
+                       (mapcar #'form-text arguments)))
     (if (and (null asked) name (known-name-p name (plan-knowledge plan)))
         (print-answer (explain-why-not name nil plan))
         (print-answers (explain-facts (or asked fact) plan)))))
