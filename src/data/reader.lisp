@@ -64,11 +64,13 @@ may have.  TRACK tells where each part of the record begins (see NOTE-PLACE)."
   (source-record-start-line source))
 
 (defun fail-at (source line column control &rest arguments)
+  "Signal a SYNTAX-ERROR at LINE and COLUMN of SOURCE that says what CONTROL and ARGUMENTS say."
   (error 'syntax-error
          :problems (list (make-problem :file (source-name source) :line line :column column
                                        :text (apply #'plain-text control arguments)))))
 
 (defun fail (source control &rest arguments)
+  "Signal a SYNTAX-ERROR where SOURCE stands, as FAIL-AT does."
   (apply #'fail-at source (source-line source) (source-column source) control arguments))
 
 ;;; Characters
@@ -233,6 +235,7 @@ next record, or NIL at the end."
   (peek source))
 
 (defun start-record (source)
+  "Note that a record begins where SOURCE stands: *RECORD-LIMIT* counts from here."
   (setf (source-bound source) (+ (source-position source) (the fixnum *record-limit*))
         (source-record-start-line source) (source-line source)
         (source-track-end source) 0
@@ -285,6 +288,7 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
           (t (read-token source)))))
 
 (defun deeper (source depth)
+  "Return DEPTH plus 1; signal a SYNTAX-ERROR if that is deeper than *DEPTH-LIMIT*."
   (declare (fixnum depth))
   (when (>= depth (the fixnum *depth-limit*))
     (fail source "lists nest deeper than ~d" *depth-limit*))
@@ -384,6 +388,8 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
               (and (< i count) (char= (schar token i) #\.) (digit-at (1+ i))))))))
 
 (defun token-number (source count line column)
+  "Return the number that the first COUNT characters of the token of SOURCE spell, which begins at LINE
+and COLUMN.  Signals a SYNTAX-ERROR if they spell none, or one out of range."
   (multiple-value-bind (number trouble) (parse-number (source-token source) count)
     (or number
         (let ((text (subseq (source-token source) 0 (min count 24))))
