@@ -620,7 +620,9 @@ Half of the boxes are of a size that a hand can hold."
                           collect (plist member)))
                    ((supergrip-data:json-array-p value)
                     (mapcar #'plist (supergrip-data:json-array-elements value)))
-                   ((supergrip-data:json-literal-p value) nil)
+                   ((supergrip-data:json-literal-p value)
+                    (cdr (assoc (supergrip-data:json-literal-text value)
+                                '(("true" . t) ("false" . :false)) :test #'string=)))
                    (t value))))
     (plist (supergrip-data:read-json (supergrip-data:string-source line)))))
 

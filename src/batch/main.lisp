@@ -226,7 +226,8 @@ not."
                (setf (batch-after-record batch) (follow-progress batch)))
              (setf (batch-keep batch) (and (getf options :report) t)
                    (batch-all batch) (getf options :all)
-                   (batch-models batch) (and (getf options :mjcf) (make-models (getf options :mjcf))))
+                   (batch-models batch) (and (getf options :mjcf) (make-models (getf options :mjcf)))
+                   (batch-margin batch) (getf options :margin))
              (run-files batch files (getf options :report)))))))
 
 (defparameter +internal-error+
@@ -277,11 +278,12 @@ prints, and the boxes, rules and grasps it was given."
   "Read the example that the keys of a box make, in each notation: the first call of a generic function
 takes SBCL long, and an image that is saved then has them behind it."
   (flet ((read-example (*notation* name)
-           (canonical-box (loop for row in *box-keys*
+           (canonical-box (loop for row in (remove-if #'box-key-instead *box-keys*)
                                 collect (cons (funcall name row) (box-key-example row)))
                           nil nil)))
     (dolist (box (list (read-example :lisp #'box-key-key) (read-example :json #'box-key-json)))
-      (plan (box-with box (find-key :facts) '()))))) ; no rule declares the example's facts
+      ;; No rule declares the example's facts, and the gripper may lack FINGER-FORCE.
+      (plan (box-with (box-with box (find-key :facts) '()) (find-key :units) nil)))))
 
 (defun build ()
   "Save this image as the executable whose name the command line gives, or as supergrip in the
