@@ -25,6 +25,11 @@
                                (part-in part (first factors)))))))
     (let ((torque (* fingers cm)))
       `((units ,length ,force)
+        ,@(and (assoc 'centre description) `((centre ,@(parts 'centre cm))))
+        ,@(let ((pose (box-part description 'pose)))
+            (and pose `((pose ,(loop for number in (first pose)
+                                     collect (/ (supergrip-data:exact-decimal number) cm))
+                              ,(second pose)))))
         (size ,@(parts 'size cm)) (weight ,@(parts 'weight fingers)) ,(assoc 'u description)
         (v ,@(parts 'v cm)) ,(assoc 'constrained description)
         (force-needed ,@(parts 'force-needed fingers fingers fingers torque torque torque))
@@ -66,6 +71,23 @@
                        box length force record other)
                    (is (eq (eq force :finger)
                            (eq :none (getf other :fits :none))))))))))
+
+(test how-a-box-lies-is-in-its-units
+  (let ((knowledge (force-knowledge)))
+    (for-random-boxes (box 15 4104)
+      (let* ((size (box-part box 'size))
+             (box (list* `(pose (40.5d0 -3 12.25d0) (0.6d0 0 0 0.8d0))
+                         `(centre ,@(loop for length in size collect (* length 0.2d0)))
+                         box))
+             (record (record-of box knowledge)))
+        (loop for (length force cm fingers) in (rest *unit-sizes*)
+              do (is (same-records-p record
+                                     (record-of (box-in box length force cm fingers) knowledge)
+                                     cm fingers))))))
+  (is (search "along X it is 400 from the box centre, and the box ends at 150"
+              (first (box-reports (list* '(centre 400 0 0) *parcel*)))))
+  (is (equal '("BOX: (POSE 1) is not valid: POSE takes the place of the box centre in the world, x y z in mm, and a unit quaternion x y z w, which turns the box there: (POSE (400 0 125) (0 0 0 1))")
+             (box-reports (list* '(pose 1) *parcel*)))))
 
 (defun in-short (description)
   "Return DESCRIPTION with numbers of four decimals."
