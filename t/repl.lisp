@@ -99,7 +99,7 @@
     (loop for (text function . arguments) in
           `(("RULES is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :MARGIN, :STREAM, :TRACE, :STEP"
              supergrip:forward-chain :box ,(paper-box) rules 3)
-            ("0.3 is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :STREAM, :TRACE, :STEP; a value goes after its key, as in (forward-chain box :gamma 0.3)"
+            ("0.3 is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :MARGIN, :STREAM, :TRACE, :STEP; a value goes after its key, as in (forward-chain box :gamma 0.3)"
              supergrip:forward-chain ,(paper-box) 0.3)
             ("there is no value after the key :GAMMA of FORWARD-CHAIN" supergrip:forward-chain :gamma)
             ("GRIP8 is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force; (describe-rule name) shows one rule"

@@ -162,6 +162,10 @@
 
 ;;; Fits
 
+(defparameter *plain-pencil*
+  '((size 12 2 2) (weight 0.2d0) (u 0.8d0) (v 0.2d0) (constrained z2 x1)
+    (force-needed (1 0.8d0 0.8d0 0.3d0 1 1)) (velocity-needed (0 0.8d0 0.8d0 0 0.8d0 0.8d0))))
+
 (test a-task-fits-where-that-is-proved
   (let ((knowledge (force-knowledge)) (seen '()))
     (flet ((fits (force &optional (weight 2))
@@ -174,6 +178,12 @@
       (is (eq t (fits '(0 0 0 0 0 0))) "what needs no force only has to be lifted")
       (is (eq :false (fits '(50 50 50 1000 1000 1000))))
       (is (eq nil (fits '(1 1 1 1 1 1) 1000)) "without a grasp nothing is proved")
+      (is (<= 0.87d0
+              (let ((plan (supergrip:plan (box-in *plain-pencil* :mm :n 1/10 1/20)
+                                          :knowledge knowledge)))
+                (supergrip::confidence (supergrip:plan-best plan) plan))
+              0.89d0)
+          "so does the confidence of a writer")
       ;; Near 1 the proof goes closer.
       (loop for factor from 1/4 to 8 by 1/4
             do (pushnew (fits (loop for need in '(5 5 10 100 100 100) collect (* factor need))) seen)))
@@ -268,10 +278,6 @@
   "Return what FUNCTION prints, in one line."
   (format nil "~{~a~^ ~}" (lines-of (with-output-to-string (*standard-output*)
                                       (funcall function)))))
-
-(defparameter *plain-pencil*
-  '((size 12 2 2) (weight 0.2d0) (u 0.8d0) (v 0.2d0) (constrained z2 x1)
-    (force-needed (1 0.8d0 0.8d0 0.3d0 1 1)) (velocity-needed (0 0.8d0 0.8d0 0 0.8d0 0.8d0))))
 
 (test answers-are-in-the-units-of-the-box
   (let* ((knowledge (force-knowledge))
