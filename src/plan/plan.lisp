@@ -210,7 +210,7 @@ of BOX, and its workspace has tried nothing yet.  Return it."
   (let ((box (if (box-p box) box (parse-box box))))
     (if (%box-units box)
         (box-for-gripper box (knowledge-graspbase knowledge)
-                         (or (data-file-name (knowledge-grasp-file knowledge)) "the grasp file"))
+                         (or (data-file-name (gripper-source knowledge)) "the grasp file"))
         box)))
 
 (defun box-at-margin (box margin)
