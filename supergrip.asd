@@ -266,6 +266,7 @@
                (:file "units")
                (:file "record")
                (:file "data")
+               (:file "schemas")
                (:file "scripts")
                (:file "fuzzer")
                (:file "batch")

@@ -61,6 +61,14 @@
     (same (uiop:remove-plist-key :reason a)
           (uiop:remove-plist-key :reason (uiop:remove-plist-key :fits b)) 1)))
 
+(defparameter *parcel*
+  '((units mm n) (name "parcel") (size 300 60 50) (mass 1.2) (u 0.8) (v 2) (constrained z2)
+    (force-needed (5 5 10 100 100 100)) (velocity-needed (1 0 0 0 0 0))))
+
+(defparameter *plain-pencil*
+  '((size 12 2 2) (weight 0.2d0) (u 0.8d0) (v 0.2d0) (constrained z2 x1)
+    (force-needed (1 0.8d0 0.8d0 0.3d0 1 1)) (velocity-needed (0 0.8d0 0.8d0 0 0.8d0 0.8d0))))
+
 (test the-same-box-in-other-units-has-the-same-record
   (let ((knowledge (force-knowledge)))
     (for-random-boxes (box 60 4101)
@@ -117,10 +125,6 @@
     (is (equal '(0.6d0 1.2d0 30d0) (size :m 0.006d0 0.012d0 0.3d0)))
     (is (equal '(2.54d0 1.27d0 0.254d0) (size :in 1 0.5d0 1/10)))))
 
-(defparameter *parcel*
-  '((units mm n) (name "parcel") (size 300 60 50) (mass 1.2) (u 0.8) (v 2) (constrained z2)
-    (force-needed (5 5 10 100 100 100)) (velocity-needed (1 0 0 0 0 0))))
-
 (test a-mass-stands-in-the-place-of-the-weight
   (flet ((weight (description &optional (newtons 20))
            (supergrip:box-weight (supergrip:plan-box
@@ -161,10 +165,6 @@
     (is (equal "#<BOX \"parcel\" 300.0 x 60.0 x 50.0 mm>" (princ-to-string box)))))
 
 ;;; Fits
-
-(defparameter *plain-pencil*
-  '((size 12 2 2) (weight 0.2d0) (u 0.8d0) (v 0.2d0) (constrained z2 x1)
-    (force-needed (1 0.8d0 0.8d0 0.3d0 1 1)) (velocity-needed (0 0.8d0 0.8d0 0 0.8d0 0.8d0))))
 
 (test a-task-fits-where-that-is-proved
   (let ((knowledge (force-knowledge)) (seen '()))
