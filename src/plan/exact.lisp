@@ -223,8 +223,9 @@ possible.  This is for tasks whose needs are absolute."
                    ((< upper 1) :false)))))
     (cond ((not (possible-p candidate)) nil)
           ((every #'zerop (%box-force (plan-box (need-plan plan)))) t)
-          ((proved))
+          ((proved :gap 0.5d0))         ; where there is much to spare, that is proved soon
           ((>= (candidate-sure candidate plan) 1) t)
+          ((proved))
           ((proved :gap 1d-4 :absolute 1d-5)))))
 
 (defun candidate-squeeze (candidate &optional (plan *plan*))
