@@ -3,13 +3,6 @@
 (in-package :supergrip-test)
 (define-suite units "A box may count in other units: the answers are the same, in these.")
 
-(defun force-knowledge (&optional (newtons 20))
-  "Return the shipped knowledge with a gripper whose FINGER-FORCE is NEWTONS."
-  (text-knowledge (file-text "rules.lisp")
-                  (changed (file-text "grasps.lisp") "(SETQ GRIPPER
-  '(" (format nil "(SETQ GRIPPER
-  '(FINGER-FORCE ~a " newtons))))
-
 (defparameter *unit-sizes*
   '((:cm :finger 1 1) (:mm :n 1/10 1/20) (:m :n 100 1/20)
     (:in :lbf 254/100 44482216152605/200000000000000))
@@ -271,6 +264,20 @@
                       :knowledge (force-knowledge "1e-300"))))
     (signals supergrip:box-error (supergrip:forward-chain :box *parcel* :stream nil))
     (signals supergrip:box-error (supergrip:try "PINCH-2-PARALLEL" :box *parcel* :stream nil))))
+
+(test a-box-that-can-not-be-converted-costs-its-record-only
+  (let ((parcel "((UNITS MM N) (NAME \"p\") (SIZE 300 60 50) (MASS 1.2) (U 0.8) (V 2) (CONSTRAINED Z2) (FORCE-NEEDED (5 5 10 100 100 100)) (VELOCITY-NEEDED (0 0 0 0 0 0)))"))
+    (destructuring-bind (bad good) (answers (format nil "~%~a~%~a" parcel (one-line *pencil*)))
+      (is (equal '("p" 2 "error" "line 2, column 2: (UNITS MM N) needs FINGER-FORCE, one finger's greatest normal force in N, which the gripper does not name: add FINGER-FORCE and a number to (SETQ GRIPPER ...) in grasps.lisp")
+                 (loop for key in '(:name :line :status :reason) collect (getf bad key))))
+      (is (equal "grasp" (getf good :status))))
+    (with-text-file (grasps (force-grasps))
+      (destructuring-bind (one two) (append (answers parcel "--grasps" grasps)
+                                            (answers parcel "--grasps" grasps "--margin" "2"))
+        (is (equal '("grasp" t) (list (getf one :status) (getf one :fits))))
+        (is (= 30d0 (abs (second (getf (first (getf one :contacts)) :position)))) "in mm")
+        (is (< (* 1.9d0 (getf two :sure)) (getf one :sure)) "a margin of 2")))
+    (is (search "--margin is a number above 0, not -1" (nth-value 2 (answers parcel "--margin" "-1"))))))
 
 ;;; In words
 

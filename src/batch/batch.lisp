@@ -10,8 +10,9 @@
 the input; FORMAT is :TRACE, :LISP, :JSON, the name of a writer, or NIL, as the input.  BAD counts the error records;
 BROKEN is true if one of them was an internal error.  LAST, after an error record, whose box may go
 on, is the line where it ended, or :REST once it did go on.  PLANS holds the plans for a report, the
-latest first, if KEEP is true; MARGIN is as for PLAN.  ALL says how many alternatives a record has, NIL for none.
-MODELS says where a file of each box goes, if not NIL; LOST is true if one could not be written."
+latest first, if KEEP is true; MARGIN is as for PLAN.  ALL says how many alternatives a record
+has, NIL for none.  MODELS says where a file of each box goes, if not NIL; LOST is true if one
+could not be written."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
   (index :paper :type keyword)

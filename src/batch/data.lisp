@@ -1,4 +1,5 @@
-;;;; data.lisp -- what a box carries along, DATA, is written: what was JSON as JSON or Lisp, and so on.
+;;;; data.lisp -- what a box carries along, DATA, is written: what was JSON as JSON or Lisp, and
+;;;; so on.
 ;;;;
 ;;;; A string is written here, too.
 
@@ -47,7 +48,8 @@ line: they become their pictures, as U+240A for a newline, or their names, as <U
   (put-octet output 41))
 
 (defun string-parts (text)
-  "Return TEXT as a list of strings without control characters, and the codes of those between them."
+  "Return TEXT as a list of strings without control characters, and the codes of those between
+them."
   (let ((start 0) (parts '()))
     (flet ((part (end)
              (when (< start end) (push (subseq text start end) parts))))

@@ -59,8 +59,8 @@ the first character of the next value, or NIL at the end."
 
 (defun read-json (source)
   "Read the JSON value that SOURCE stands at, and return it: a number as READ-DATUM returns it, a
-string, a JSON-ARRAY, a JSON-OBJECT or a JSON-LITERAL; under the key data of an object, JSON-NUMBERs for
-numbers.  Signals a SYNTAX-ERROR."
+string, a JSON-ARRAY, a JSON-OBJECT or a JSON-LITERAL; under the key data of an object,
+JSON-NUMBERs for numbers.  Signals a SYNTAX-ERROR."
   (start-record source)
   (read-value source 0))
 

@@ -226,7 +226,8 @@ not."
                (setf (batch-after-record batch) (follow-progress batch)))
              (setf (batch-keep batch) (and (getf options :report) t)
                    (batch-all batch) (getf options :all)
-                   (batch-models batch) (and (getf options :mjcf) (make-models (getf options :mjcf)))
+                   (batch-models batch) (and (getf options :mjcf)
+                                             (make-models (getf options :mjcf)))
                    (batch-margin batch) (getf options :margin))
              (run-files batch files (getf options :report)))))))
 

@@ -99,8 +99,8 @@ PLAN, or of none.")
 
 (defun error-record (problems &key name line (index :paper) all carried)
   "Return the record of a box that can't be used because of PROBLEMS: as PLAN-RECORD gives it, with
-:STATUS \"error\", the problems in one :REASON, and each in :PROBLEMS as (:LINE l :COLUMN c :TEXT t).
-CARRIED is what the box carries along, or NIL."
+:STATUS \"error\", the problems in one :REASON, and each in :PROBLEMS as (:LINE l :COLUMN c
+:TEXT t).  CARRIED is what the box carries along, or NIL."
   (list* :name name
          :line line
          :status "error"

@@ -55,7 +55,8 @@ well it does."
 (defun weight-text (box)
   "Return the weight of BOX as its arrow is labelled, or NIL if it has none."
   (and (plusp (box-weight box))
-       (format nil "weight ~a~:[, at the centre of mass~;~]" (with-unit (quantity (in-units (box-weight box) :force)) :force)
+       (format nil "weight ~a~:[, at the centre of mass~;~]"
+               (with-unit (quantity (in-units (box-weight box) :force)) :force)
                (every #'zerop (box-centre box)))))
 
 (defun down-text (box)

@@ -16,8 +16,8 @@
 
 (defun draw-rows (rows limit most x y width &key (measure (constantly nil)))
   "Draw one row for each axis: a bar for what there is, a thick mark for what is needed, and their
-ratio; MEASURE, a function of an axis, says what the numbers there measure; LIMIT is the name of the limiting axis, MOST the number at the end of the scale.  Returns the
-y below."
+ratio; MEASURE, a function of an axis, says what the numbers there measure; LIMIT is the name of
+the limiting axis, MOST the number at the end of the scale.  Returns the y below."
   (let* ((most (max most 1d-9))
          (left (+ x 66)) (room (- width 66 156)))
     (flet ((x-of (number) (+ left (* room (/ (max 0 number) most)))))

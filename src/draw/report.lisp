@@ -13,12 +13,12 @@
   (if *units*
       (format nil "Lengths in ~a, forces in ~a, torques in ~a." (unit-phrase :length)
               (unit-phrase :force) (or (unit-text-of :torque) "finger force × cm"))
-      (format nil "Lengths in cm,~%forces in units of one finger’s greatest normal force, torques in ~
-                   their product.")))
+      (format nil "Lengths in cm,~%forces in units of one finger’s greatest normal force, ~
+                   torques in their product.")))
 
 (defmacro with-page ((file title &optional (units '(units-words))) &body body)
-  "Write an HTML page of TITLE, whose header and main parts BODY writes, to FILE; UNITS, a form, says in which
-units.  Returns FILE."
+  "Write an HTML page of TITLE, whose header and main parts BODY writes, to FILE; UNITS, a form,
+says in which units.  Returns FILE."
   `(with-output-to (*out* ,file)
      (format *out* "<!DOCTYPE html>~%")
      (markup

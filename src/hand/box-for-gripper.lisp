@@ -1,6 +1,7 @@
 ;;;; box-for-gripper.lisp -- a box in N or kg becomes one in the finger forces of a gripper.
 ;;;;
-;;;; A box is read without a gripper; so whether its finger force is known is asked when a plan is made.
+;;;; A box is read without a gripper; so whether its finger force is known is asked when a plan
+;;;; is made.
 
 (in-package :supergrip)
 
@@ -10,8 +11,8 @@
     (and force (plusp force) (exact-decimal force))))
 
 (defun box-for-gripper (box graspbase file)
-  "Return BOX with its forces in finger forces of the gripper of GRASPBASE, which the file named FILE
-holds.  Signals a BOX-ERROR if they can't be known, or are out of range."
+  "Return BOX with its forces in finger forces of the gripper of GRASPBASE, which the file named
+FILE holds.  Signals a BOX-ERROR if they can't be known, or are out of range."
   (let* ((units (%box-units box))
          (force (finger-force graspbase)))
     (cond ((null (units-finger units)) box)
@@ -21,26 +22,28 @@ holds.  Signals a BOX-ERROR if they can't be known, or are out of range."
 
 (defun refuse-box-of (box control &rest arguments)
   "Signal a BOX-ERROR about the forces of BOX."
-  (let ((*file* nil) (*lines* nil) (*subject* (plain-text "BOX~@[ ~s~]" (box-name box))) (*place* nil)
+  (let ((*file* nil) (*lines* nil) (*place* nil)
+        (*subject* (plain-text "BOX~@[ ~s~]" (box-name box)))
         (units (%box-units box)))
     (refuse-box (nth-value 1 (with-problems
                                (complain (and units (units-spot units)) "~?" control arguments)))
                 nil (%box-line box))))
 
 (defun refuse-unknown-force (box file)
-  (refuse-box-of box "~a needs FINGER-FORCE, one finger's greatest normal force in N, which the ~
-                      gripper does not name: add FINGER-FORCE and a number to (SETQ GRIPPER ...) in ~a"
-                 (let ((units (%box-units box)))
+  (let ((units (%box-units box)))
+    (refuse-box-of box "~a needs FINGER-FORCE, one finger's greatest normal force in N, which ~
+                        the gripper does not name: add FINGER-FORCE and a number to (SETQ ~
+                        GRIPPER ...) in ~a"
                    (if (absolute-units-p units)
                        (clause-text *notation* (find-key :units)
                                     (list (canonical-name (unit-name (units-length units)))
                                           (canonical-name (unit-name (units-force units)))))
-                       (key-name *notation* (find-key :mass))))
-                 file))
+                       (key-name *notation* (find-key :mass)))
+                   file)))
 
 (defun box-with-forces (box units force)
-  "Return BOX with UNITS, and with its weight, and its forces needed if they are absolute, FORCE times
-as great; NIL if one is then out of range."
+  "Return BOX with UNITS, and with its weight, and its forces needed if they are absolute, FORCE
+times as great; NIL if one is then out of range."
   (let ((values (box-values-of box)))
     (setf (getf values :units) units)
     (dolist (row *box-keys* (make-box values (%box-line box)))
@@ -69,8 +72,8 @@ as great; NIL if one is then out of range."
   (let ((number (and (realp margin) (as-double margin))))
     (if (and number (plusp number))
         (exact-decimal number)
-        (refuse-argument "margin is ~a; it is a number above 0, by which the weight and absolute needs ~
-                          are multiplied" (form-text margin)))))
+        (refuse-argument "margin is ~a; it is a number above 0, by which the weight and absolute ~
+                          needs are multiplied" (form-text margin)))))
 
 (defun box-with-margin (box margin)
   "Return BOX with its weight, and its forces needed if they are absolute, MARGIN times as great.

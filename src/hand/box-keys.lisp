@@ -12,7 +12,8 @@
   (:NUMBERS n)   N numbers above 0
   :PLACE         three numbers
   :POSE          a list of three numbers and one of four: see pose.lisp
-  :NEEDS         a list of six numbers from 0 to 1; from 0 if the box has absolute units, and there is a MEASURE
+  :NEEDS         a list of six numbers from 0 to 1; from 0 if the box has absolute units,
+                 and there is a MEASURE
   :FACES         faces, any number of them
   :FACTS         sentences, any number of them: see box-facts.lisp
   :UNITS         the names of two units, of length and of force
@@ -20,10 +21,10 @@
   :DATA          anything.
 TAKES says so in words, EXAMPLE is a list of what may follow.  OPTIONAL is true if a box may lack it.
 READER is a function of a box; SLOT, a keyword, names the slot of its own, if it has one.  WORDS name a value that may be
-varied, \"the weight\", NIL if none may.  MEASURE says what its numbers are: :LENGTH, :FORCE, :WRENCH, three forces
-and three torques, or NIL for what has no unit; TAKES then has ~a for the units.  ABSOLUTE is what it
-takes of a box with absolute units, if that is something else.  INSTEAD is the key in whose place it
-stands."
+varied, \"the weight\", NIL if none may.  MEASURE says what its numbers are: :LENGTH, :FORCE,
+:WRENCH, three forces and three torques, or NIL for what has no unit; TAKES then has ~a for the
+units.  ABSOLUTE is what it takes of a box with absolute units, if that is something else.
+INSTEAD is the key in whose place it stands."
   key json type takes example optional slot reader words measure absolute instead)
 
 (defvar *box-keys* '() "The rows that DEFINE-BOX-KEY has defined, in order.")
@@ -89,8 +90,8 @@ is among the others of the box, for BOX-VALUE.  MEASURE, ABSOLUTE and INSTEAD: s
   (and units (list (unit-name (units-length units)) (unit-name (units-force units)))))
 
 (defgeneric each-number (value function)
-  (:documentation "Return a VALUE of a key with what FUNCTION, of a number and its place, makes of each number
-that has a unit; NIL if it makes NIL of one.")
+  (:documentation "Return a VALUE of a key with what FUNCTION, of a number and its place, makes of
+each number that has a unit; NIL if it makes NIL of one.")
   (:method ((value real) function)
     (funcall function value 0))
   (:method ((value array) function)
@@ -99,8 +100,8 @@ that has a unit; NIL if it makes NIL of one.")
         (setf (aref numbers i) (or (funcall function (aref numbers i) i) (return nil)))))))
 
 (defun measured-value (row value convert)
-  "Return VALUE, that of the key ROW, with what CONVERT, a function of a number and its measure, makes
-of each number; NIL if it makes NIL of one."
+  "Return VALUE, that of the key ROW, with what CONVERT, a function of a number and its measure,
+makes of each number; NIL if it makes NIL of one."
   (let ((measure (box-key-measure row)))
     (if (and measure value)
         (each-number value (lambda (number place)
@@ -109,8 +110,8 @@ of each number; NIL if it makes NIL of one."
 
 (defun box-value (box key)
   "Return what BOX gives for KEY, a symbol or a string: as the description has it, or NIL.  For keys that
-DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles, facts are lists of strings, as
-are units."
+DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles, facts are lists of
+strings, as are units."
   (let ((row (find (and (or (symbolp key) (stringp key)) (string-upcase key)) *box-keys*
                    :key #'box-key-key :test #'string=)))
     (if row
@@ -189,7 +190,8 @@ ROW, begins: NUMBERS are that of a value and of an element of it; without any, t
   "Return how numbers above 1 are allowed for the key ROW, or NIL."
   (and (box-key-absolute row)
        (clause-text *notation* (find-key :units)
-                    (list (if *units* (canonical-name (unit-name (units-length *units*))) :cm) :n))))
+                    (list (if *units* (canonical-name (unit-name (units-length *units*))) :cm)
+                          :n))))
 
 ;;; Where a part stands: for the reports, a list of numbers that PART-PLACE understands.
 

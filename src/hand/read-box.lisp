@@ -88,8 +88,8 @@ a list of numbers, each that of an element."
                  description)))
 
 (defun described-units (description)
-  "Return the units that DESCRIPTION, a list of clauses, names, or NIL.  In the place of wrong ones, of
-which is complained where they stand, come some that allow all needs."
+  "Return the units that DESCRIPTION, a list of clauses, names, or NIL.  In the place of wrong
+ones, of which is complained where they stand, come some that allow all needs."
   (let ((number (clause-number :units description)))
     (when number
       (multiple-value-bind (units problems)
@@ -100,8 +100,8 @@ which is complained where they stand, come some that allow all needs."
             units)))))
 
 (defun converted-values (values description)
-  "Return VALUES, those of DESCRIPTION in *UNITS*, in cm and finger forces; a mass becomes a weight.  As
-long as no gripper is known, a finger force is 1 N."
+  "Return VALUES, those of DESCRIPTION in *UNITS*, in cm and finger forces; a mass becomes a
+weight.  As long as no gripper is known, a finger force is 1 N."
   (let* ((mass (getf values :mass))
          (units (if mass (units-with-mass (clause-number :mass description)) *units*))
          (converted (list :units units)))
@@ -128,8 +128,8 @@ long as no gripper is known, a finger force is 1 N."
 (defun refuse-size (row description)
   "Complain that what DESCRIPTION gives for the key ROW can't be converted."
   (let ((*clause* (clause-number (box-key-key row) description)))
-    (complain (clause-spot) "~a can't be computed with: in cm, or N, it would be out of range, from ~
-                             1e-300 to 1e300"
+    (complain (clause-spot) "~a can't be computed with: in cm, or N, it would be out of range, ~
+                             from 1e-300 to 1e300"
               (clause-text *notation* row (rest (nth *clause* description))))))
 
 (defun complain-of-missing (keys)
@@ -160,8 +160,8 @@ have ended it."
 (VELOCITY-NEEDED (0 0.8 0.8 0 0.8 0.8))), in any order, with an optional (NAME \"pencil\") and
 (FACTS (FRAGILE (Z1)) (WET)), also inside (SETQ BOX '...).  Names may be of any package.  FILE and LINE are used in reports.
 
-Sizes in cm; weight in units of one finger's greatest normal force; V in cm; needs from 0 to 1; or all
-in the units of (UNITS MM N), and (MASS kg) for the weight: see docs/languages.md.
+Sizes in cm; weight in units of one finger's greatest normal force; V in cm; needs from 0 to 1; or
+all in the units of (UNITS MM N), and (MASS kg) for the weight: see docs/languages.md.
 Signals a BOX-ERROR that holds all that is wrong with it."
   (canonical-box (handler-case (canonical form)
                    (syntax-error (condition)

@@ -1,14 +1,14 @@
 ;;;; units.lisp -- the units in which a box may count: the table of them, and what converts numbers.
 ;;;;
-;;;; All is computed in cm and finger forces, so that no answer depends on the units.  What is said of a
-;;;; box is said in its own.
+;;;; All is computed in cm and finger forces, so that no answer depends on the units.  What is
+;;;; said of a box is said in its own.
 
 (in-package :supergrip)
 
 (defstruct (unit (:constructor make-unit (name text measure size)) (:copier nil))
   "A unit of what MEASURE says, :LENGTH or :FORCE.  NAME is what a box calls it, TEXT what a reader
-does, NIL for nothing.  SIZE, exact, is it in cm or in N; NIL for one finger's greatest normal force, which the
-gripper gives."
+does, NIL for nothing.  SIZE, exact, is it in cm or in N; NIL for one finger's greatest normal
+force, which the gripper gives."
   (name "" :type string :read-only t) (text nil :read-only t)
   (measure nil :read-only t) (size nil :read-only t))
 
@@ -39,9 +39,9 @@ gripper gives."
         when (eq measure (unit-measure unit)) collect (unit-name unit)))
 
 (defstruct (units (:constructor make-units (length force finger &optional spot)))
-  "The units of a box: LENGTH and FORCE, units.  FINGER is what a finger force is in the numbers of the
-box, in N, exact; 1 as long as no gripper is known; NIL if nothing of the box is in N or kg.  SPOT is
-the spot, in the description, of what needs to know it."
+  "The units of a box: LENGTH and FORCE, units.  FINGER is what a finger force is in the numbers
+of the box, in N, exact; 1 as long as no gripper is known; NIL if nothing of the box is in N or
+kg.  SPOT is the spot, in the description, of what needs to know it."
   (length nil :type unit :read-only t) (force nil :type unit :read-only t)
   (finger nil :read-only t) (spot nil :read-only t))
 
@@ -54,8 +54,8 @@ forces.")
   (and units (unit-size (units-force units)) t))
 
 (defun part-measure (measure index)
-  "Return the measure of the part INDEX, or NIL, of what has MEASURE: :WRENCH is three forces, and three
-torques."
+  "Return the measure of the part INDEX, or NIL, of what has MEASURE: :WRENCH is three forces, and
+three torques."
   (if (eq measure :wrench) (if (< index 3) :force :torque) measure))
 
 (defun axis-measure (axis)
@@ -72,8 +72,8 @@ torques."
     (:torque (* (unit-factor :length units) (unit-factor :force units)))))
 
 (defun exactly-times (number factor)
-  "Return the double nearest to the product of FACTOR, exact, and NUMBER, a double that stands for its
-shortest decimal: 0.006 times 100 is 0.6.  NIL if it is out of range."
+  "Return the double nearest to the product of FACTOR, exact, and NUMBER, a double that stands for
+its shortest decimal: 0.006 times 100 is 0.6.  NIL if it is out of range."
   (values (bounded-rational (* factor (exact-decimal number)))))
 
 (defun in-units (number measure &optional (units *units*))
@@ -98,7 +98,8 @@ shortest decimal: 0.006 times 100 is 0.6.  NIL if it is out of range."
   (apply #'number-texts (loop for number in numbers collect (in-units number measure))))
 
 (defun unit-text-of (measure &optional (units *units*))
-  "Return what a number of MEASURE in UNITS counts, \"N mm\"; NIL for finger forces, with or without cm."
+  "Return what a number of MEASURE in UNITS counts, \"N mm\"; NIL for finger forces, with or
+without cm."
   (let ((length (if units (unit-text (units-length units)) "cm"))
         (force (and units (unit-text (units-force units)))))
     (ecase measure

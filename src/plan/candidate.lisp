@@ -71,8 +71,8 @@ figures."
   workspace)
 
 (defmacro with-workspace ((workspace plan) &body body)
-  "Run BODY with WORKSPACE, one at the box of PLAN, which is given back after it.  Numbers are put into
-words in the units of the box."
+  "Run BODY with WORKSPACE, one at the box of PLAN, which is given back after it.  Numbers are put
+into words in the units of the box."
   (let ((memory (gensym)) (the-plan (gensym)))
     `(without-float-traps
        (let* ((,the-plan (need-plan ,plan))

@@ -145,8 +145,8 @@ EVENT-FACT)."
   "Return the plan for BOX, a box or a description of one (see PARSE-BOX).
 KNOWLEDGE holds the rules and grasps to use, GAMMA from 0 to 1 weighs velocities against forces.
 INDEX is :PAPER, or :EXACT: then closure, lifting and u_w are what the contacts can really do, proved
-(see docs/physics.md).  MARGIN, a number above 0, multiplies the weight of BOX, and its needs if they are
-absolute, as in (UNITS CM N).
+(see docs/physics.md).  MARGIN, a number above 0, multiplies the weight of BOX, and its needs if
+they are absolute, as in (UNITS CM N).
 A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from several threads."
   (with-plain-floats
     (let ((memory (start-plan (if margin (box-at-margin box margin) box) knowledge gamma index)))

@@ -22,8 +22,9 @@ and return the plan, which *PLAN* also holds.
 
 ARGUMENTS are keys and values: :BOX a box or a description of one, by default what (setq box ...)
 gave, which may also stand first, without its key; :KNOWLEDGE, by default what is in force; :GAMMA
-weighs velocities (1) against forces (0); :INDEX is :PAPER or :EXACT, :MARGIN a factor of the weight (see PLAN); :STREAM is where to print, NIL for not at all; :TRACE says
-how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger before each rule."
+weighs velocities (1) against forces (0); :INDEX is :PAPER or :EXACT, :MARGIN a factor of the
+weight (see PLAN); :STREAM is where to print, NIL for not at all; :TRACE says how much to print
+(see *TRACE-LEVEL*); :STEP, if true, stops in the debugger before each rule."
   (apply #'chain-box
          (checked-keys (if (or (null arguments) (keywordp (first arguments)))
                            arguments

@@ -47,8 +47,8 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
             (face-name palm) (approach-text palm box))))
 
 (defun limit-at (axis has needs radius &optional measure)
-  "Return the LIMIT of RADIUS on AXIS, 0 to 5, where the grasp HAS, and the task NEEDS, six numbers of
-MEASURE."
+  "Return the LIMIT of RADIUS on AXIS, 0 to 5, where the grasp HAS, and the task NEEDS, six
+numbers of MEASURE."
   (let ((measure (part-measure measure axis)))
     (make-limit :axis (axis-name axis) :has (in-units (aref has axis) measure)
                 :needs (in-units (aref needs axis) measure) :radius radius :measure measure)))

@@ -3,10 +3,10 @@
 (in-package :supergrip)
 
 (defstruct demand
-  "How far a grasp does what is asked: FITS is CANDIDATE-FITS; SURELY and AT-MOST are radii, which part
-of the forces and torques asked for its contacts surely bear, all together and in any direction, and bear at
-most; WEAKEST is the axis, \"about Y\", on which they have the least to spare.  Without needs the last
-three are NIL."
+  "How far a grasp does what is asked: FITS is CANDIDATE-FITS; SURELY and AT-MOST are radii, which
+part of the forces and torques asked for its contacts surely bear, all together and in any
+direction, and bear at most; WEAKEST is the axis, \"about Y\", on which they have the least to
+spare.  Without needs the last three are NIL."
   fits surely at-most weakest)
 
 (defun weakest-axis (motion need)
@@ -26,8 +26,8 @@ three are NIL."
             (make-demand :fits fits))))))
 
 (defun percent-text (radius round)
-  "Return RADIUS in per cent, a whole number as ROUND, a function, makes it; near 100 with the digits that
-show on which side of 100 it is."
+  "Return RADIUS in per cent, a whole number as ROUND, a function, makes it; near 100 with the
+digits that show on which side of 100 it is."
   (let ((percent (* 100 radius)))
     (if (or (= percent 100) (not (< 99 percent 101)))
         (number-text (funcall round percent))
@@ -40,7 +40,8 @@ show on which side of 100 it is."
                    (:false "It does not fit")
                    (t "Whether it fits was not proved"))))
     (if (demand-at-most demand)
-        (plain-text "~a: surely ~a %~:[, and at most ~a %,~;~*~] of what is asked; weakest ~a." verdict
+        (plain-text "~a: surely ~a %~:[, and at most ~a %,~;~*~] of what is asked; weakest ~a."
+                    verdict
                     (percent-text (demand-surely demand) #'floor)
                     (eq t (demand-fits demand))
                     (percent-text (demand-at-most demand) #'ceiling)

@@ -313,4 +313,5 @@ exchanged if TURNED."
             (destructuring-bind (text limit-text) (texts-in-units :length number limit)
               (format nil "the narrowest free pair, ~a, is ~a; ~a"
                       (char "XYZ" (aref (matching-axes (%candidate-matching candidate)) axis))
-                      (with-unit text :length) (demand-words node text op limit-text other form)))))))))
+                      (with-unit text :length)
+                      (demand-words node text op limit-text other form)))))))))

@@ -26,8 +26,8 @@ decides.")
 far as it can be, or two lists, of constrained faces or of facts; BOX is the changed box, PLAN the
 plan that results.  For a value, LIMIT is the nearest that does it, not rounded, and SIZE how far
 that is from FROM; THRESHOLD is NIL or, if a dimension of the gripper decides, how LIMIT stands to
-it, a string, its name and itself.  All are in the units of the box; MEASURE is what they measure, and
-DISTANCE is SIZE in cm and finger forces.  AT-ONCE is true if anything above 0 does it."
+it, a string, its name and itself.  All are in the units of the box; MEASURE is what they measure,
+and DISTANCE is SIZE in cm and finger forces.  AT-ONCE is true if anything above 0 does it."
   what from to box plan limit size threshold measure distance at-once)
 
 (defstruct goal
@@ -423,12 +423,13 @@ GOAL true; NIL if none does."
   (in-units number (line-measure line) (line-units line)))
 
 (defun off-line-units (number line)
-  "Return NUMBER, in the units of the box of LINE, in cm and finger forces; NIL if it is out of range."
+  "Return NUMBER, in the units of the box of LINE, in cm and finger forces; NIL if it is out of
+range."
   (from-units number (line-measure line) (line-units line)))
 
 (defun decimal-beyond (before place line goal)
-  "Return the short decimal, in the units of the box of LINE, of what varies beyond PLACE, at which GOAL
-becomes true, as it is not at BEFORE."
+  "Return the short decimal, in the units of the box of LINE, of what varies beyond PLACE, at
+which GOAL becomes true, as it is not at BEFORE."
   (short-decimal-beyond (in-line-units before line) (in-line-units place line)
                         (in-line-units (line-from line) line)
                         (lambda (value)
@@ -436,8 +437,8 @@ becomes true, as it is not at BEFORE."
                             (and number (true-at-p line goal number))))))
 
 (defun make-change-to (line goal place at-once to)
-  "Return the CHANGE of what varies along LINE to TO, in the units of its box, PLACE being the nearest at
-which GOAL is true, AT-ONCE if anything above 0."
+  "Return the CHANGE of what varies along LINE to TO, in the units of its box, PLACE being the
+nearest at which GOAL is true, AT-ONCE if anything above 0."
   (let* ((from (line-from line))
          (box (line-box line (if (eql to (in-line-units place line)) ; no shorter decimal
                                  place
@@ -454,8 +455,8 @@ which GOAL is true, AT-ONCE if anything above 0."
 
 (defun line-end (plan goal row index from)
   "Return how far a line of the key ROW, at INDEX, goes that is FROM in PLAN: needs that are not
-absolute to 1, others to four times what they are or to 2; sizes, and all if GOAL only depends on what is known of the box, also
-to four times the greatest dimension of the gripper."
+absolute to 1, others to four times what they are or to 2; sizes, and all if GOAL only depends on
+what is known of the box, also to four times the greatest dimension of the gripper."
   (let ((reach (reduce #'max (thresholds-of plan) :key #'cdr :initial-value 0d0))
         (units (%box-units (plan-box plan))))
     (cond ((and (eq (box-key-type row) :needs)

@@ -6,8 +6,8 @@
 (in-package :supergrip)
 
 (defun confidence (candidate plan)
-  "Return how sure CANDIDATE of PLAN is, 0 to 1: in exact mode, and where the needs are absolute, the share
-of the forces needed that it surely bears; else Q/(1+Q), which orders grasps as Q does."
+  "Return how sure CANDIDATE of PLAN is, 0 to 1: in exact mode, and where the needs are absolute,
+the share of the forces needed that it surely bears; else Q/(1+Q), which orders grasps as Q does."
   (let* ((demand (demand-on candidate plan)) (quality (candidate-quality candidate))
          (radius (cond (demand (demand-surely demand))
                        ((eq (plan-index plan) :exact) (candidate-force-radius candidate)))))
