@@ -345,8 +345,7 @@ something else is chosen; in finger forces and cm the limit is the same."
           (t 1d0 1.42d0 "It fits: surely 100 % of what is asked; weakest about Y.")
           (:false 0.9995d0 0.99991d0
            "It does not fit: surely 99.95 %, and at most 99.99 %, of what is asked; weakest about Y.")
-          (:false -0.5d0 -0.5d0
-           "It does not fit: surely -50 %, and at most -50 %, of what is asked; weakest about Y.")
+          (:false -0.5d0 -0.5d0 "It does not fit: exactly, the contacts can't hold the weight.")
           (nil 0.99999d0 1.00001d0
            "Whether it fits was not proved: surely 99.999 %, and at most 100.001 %, of what is asked; weakest about Y.")
           (t nil nil "It fits: no force is asked for, and it holds the weight."))

@@ -38,12 +38,14 @@ digits that show on which side of 100 it is."
   (let ((verdict (case (demand-fits demand)
                    ((t) "It fits")
                    (:false "It does not fit")
-                   (t "Whether it fits was not proved"))))
-    (if (demand-at-most demand)
-        (plain-text "~a: surely ~a %~:[, and at most ~a %,~;~*~] of what is asked; weakest ~a."
-                    verdict
-                    (percent-text (demand-surely demand) #'floor)
-                    (eq t (demand-fits demand))
-                    (percent-text (demand-at-most demand) #'ceiling)
-                    (demand-weakest demand))
-        (plain-text "~a: no force is asked for, and it holds the weight." verdict))))
+                   (t "Whether it fits was not proved")))
+        (upper (demand-at-most demand)))
+    (cond ((null upper)
+           (plain-text "~a: no force is asked for, and it holds the weight." verdict))
+          ((minusp upper)
+           (plain-text "~a: exactly, the contacts can't hold the weight." verdict))
+          (t
+           (plain-text "~a: surely ~a %~:[, and at most ~a %,~;~*~] of what is asked; weakest ~a."
+                       verdict (percent-text (demand-surely demand) #'floor)
+                       (eq t (demand-fits demand)) (percent-text upper #'ceiling)
+                       (demand-weakest demand))))))
