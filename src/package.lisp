@@ -36,7 +36,9 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:not-chosen #:not-chosen-kind #:not-chosen-text #:not-chosen-grasp #:not-chosen-matching
    #:not-chosen-candidates #:not-chosen-refusals #:not-chosen-outcome #:not-chosen-margin
    #:not-chosen-faces
-   #:choice #:choice-sentence #:choice-force #:choice-velocity #:choice-sure #:choice-runner-up #:choice-margin
+   #:choice #:choice-sentence #:choice-force #:choice-velocity #:choice-sure
+   #:choice-demand #:demand-fits #:demand-surely #:demand-at-most #:demand-weakest #:demand-on #:demand-text
+   #:demand #:choice-runner-up #:choice-margin
    #:choice-changes #:choice-stepped #:limit #:limit-axis #:limit-has #:limit-needs #:limit-radius
    #:change #:change-words #:change-what #:change-from #:change-to #:change-box #:change-plan
    #:change-limit #:change-size #:change-threshold
@@ -76,7 +78,8 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-offset #:candidate-contacts #:candidate-approach #:candidate-hand #:candidate-world
    #:candidate-wrench #:candidate-twist #:candidate-sure #:candidate-failure
    #:candidate-palm #:candidate-load #:candidate-force-need #:candidate-velocity-need
-   #:candidate-bound-p #:candidate-exact-radius #:candidate-squeeze #:candidate-friction-margin
+   #:candidate-bound-p #:candidate-exact-radius #:candidate-squeeze #:candidate-fits
+   #:candidate-friction-margin
    #:candidate-powers #:motion-text
    #:try-grasp
    ;; refining

@@ -589,3 +589,20 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
       (is (eql 0 status) "~a" errors)
       (is (= 3 (count #\Newline output)))
       (is (= 4 (length (uiop:directory-files (in-folder folder "pages/") "*.html")))))))
+
+(test pages-and-pictures-are-in-the-units-of-the-box
+  (let* ((knowledge (force-knowledge))
+         (plan (supergrip:plan '((units mm n) (name "pen") (size 120 20 20) (weight 4) (u 0.8d0) (v 2)
+                                 (constrained z2 x1) (force-needed (20 16 16 60 200 200))
+                                 (velocity-needed (0 0.8d0 0.8d0 0 0.8d0 0.8d0)))
+                               :knowledge knowledge)))
+    (uiop:with-temporary-file (:pathname file)
+      (supergrip-draw:report plan file)
+      (let ((page (uiop:read-file-string file)))
+        (dolist (part '("120 &#xD7; 20 &#xD7; 20 mm" "F1 on Y2 at (&#x2212;8.688, &#x2212;10, 0)"
+                        "mm from the box centre" "weight 4 N" "units a mm" "20 mm"
+                        "It does not fit: surely 87 %, and at most 89 %, of what is asked; weakest about Y."
+                        "forces in N, torques in N mm; velocities from 0 to 1"
+                        "Lengths in mm, forces in N, torques in N mm."))
+          (is (search part page) "~a" part))
+        (is (not (search " cm" (subseq page (search "<body" page) (search "All candidates" page)))))))))

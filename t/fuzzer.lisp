@@ -62,6 +62,8 @@
                             (if (chance 9)
                                 (format nil "(FACTS (WET) (FRAGILE (~a)))" (faces "~a" " "))
                                 "(FACTS)")
+                            (pick '("(UNITS MM N)" "(units in Finger)" "(UNITS M)" "(DATA)" "(DATA 1)"
+                                    "(DATA (a (\"b\")) 1/2)" "(MASS 1)" "(MASS 1e300)" "(UNITS mm kg)"))
                             (format nil "(NAME \"~a\")" (substitute #\_ #\\ (name-text)))))))
 
 (defun json-box ()
@@ -77,6 +79,9 @@
                                 (format nil "\"facts\": [[\"WET\"], [\"FRAGILE\", [~a]]]"
                                         (faces "\"~a\"" ", "))
                                 "\"facts\": []")
+                            (pick '("\"units\": [\"mm\", \"N\"]" "\"units\": [\"in\", \"finger\"]"
+                                    "\"units\": \"mm\"" "\"data\": null" "\"data\": [1.50, {\"a\": []}]"
+                                    "\"data\": {}" "\"mass\": 1" "\"mass\": 1e300"))
                             (format nil "\"name\": \"~a\"" (name-text))))))
 
 (defun good-box (notation number)

@@ -97,9 +97,9 @@
   (let ((supergrip::*breaks* '()) (supergrip::*traced* '())
         (plan (supergrip:plan (paper-box))))
     (loop for (text function . arguments) in
-          `(("RULES is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :STREAM, :TRACE, :STEP"
+          `(("RULES is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :MARGIN, :STREAM, :TRACE, :STEP"
              supergrip:forward-chain :box ,(paper-box) rules 3)
-            ("0.3 is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :STREAM, :TRACE, :STEP; a value goes after its key, as in (forward-chain box :gamma 0.3)"
+            ("0.3 is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :MARGIN, :STREAM, :TRACE, :STEP; a value goes after its key, as in (forward-chain box :gamma 0.3)"
              supergrip:forward-chain ,(paper-box) 0.3)
             ("there is no value after the key :GAMMA of FORWARD-CHAIN" supergrip:forward-chain :gamma)
             ("GRIP8 is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force; (describe-rule name) shows one rule"
@@ -116,7 +116,7 @@
             ("() is not the name of a file: that is a string, or a path without wild cards"
              supergrip:load-knowledge :grasps ())
             ("3 is not a break: a break is the name of a rule or a grasp, or a fact, such as (PARALLEL (Y2 Y1))" supergrip:unbreak 3)
-            ("COLOUR is not a key of a box: keys are SIZE, WEIGHT, U, V, CONSTRAINED, FORCE-NEEDED, VELOCITY-NEEDED, NAME, FACTS, POSE, CENTRE"
+            ("COLOUR is not a key of a box: keys are SIZE, WEIGHT, U, V, CONSTRAINED, FORCE-NEEDED, VELOCITY-NEEDED, NAME, FACTS, UNITS, MASS, DATA, POSE, CENTRE"
              supergrip:box-value ,(supergrip:plan-box plan) :colour))
           do (is (equal text (error-text (apply function arguments)))))
     (is (search "is not the name of a file" (error-text (supergrip:reload-knowledge :rules #p"*.lisp"))))

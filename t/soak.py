@@ -158,6 +158,8 @@ def clauses(rng, box, name, notation):
             parts.append(f"(NAME {lisp_string(name)})")
     if rng.random() < 0.1:  # facts of one's own: the shipped rules declare none
         parts.append('"facts": []' if notation == "json" else "(facts)")
+    if rng.random() < 0.1:  # the units of every box that names none
+        parts.append('"units": ["cm", "Finger"]' if notation == "json" else "(units Cm FINGER)")
     rng.shuffle(parts)
     return parts
 
@@ -320,14 +322,16 @@ BAD_VALUES = {
              "(FORCE-NEEDED (1 1 1 1 1 1.0001))", "(VELOCITY-NEEDED (0 0 0 0 0))",
              "(CONSTRAINED X3)",
              "(CONSTRAINED (X1 X2))", "(CONSTRAINED X1 X1)", "(CONSTRAINED 1)", "(U -1e-300)",
-             "(FACTS (WET))", "(FACTS WET)", "(FACTS (WET (X1 X1)))", "(FACTS (NOT WET))"],
+             "(FACTS (WET))", "(FACTS WET)", "(FACTS (WET (X1 X1)))", "(FACTS (NOT WET))",
+             "(UNITS MM)", "(UNITS MM KG)", "(UNITS N MM)"],
     "json": ['"size": [12, 2]', '"size": 12', '"size": [0,1,1]', '"size": ["1",1,1]',
              '"size": null',
              '"weight": -1', '"weight": "1"', '"u": [1]', '"v": true', '"v": {"a": 1}', '"u": null',
              '"force_needed": [1,1,1,1,1,2]', '"velocity_needed": [0,0,0]', '"constrained": "X1"',
              '"constrained": ["X3"]', '"constrained": [["X1"]]', '"constrained": ["X1","X1"]',
              '"facts": [["WET"]]', '"facts": ["WET"]', '"facts": [["WET",["X9"]]]',
-             '"facts": [[["X1"]]]', '"facts": null']}
+             '"facts": [[["X1"]]]', '"facts": null', '"units": ["mm"]', '"units": ["mm", "kg"]',
+             '"units": "mm"', '"units": null']}
 
 
 def bad_value(case, notation):

@@ -174,6 +174,15 @@ pairs of what the scan has and what is read."
   "Return the knowledge in the texts RULES and GRASPS, and the list of all problems."
   (supergrip::build-knowledge (text-file rules "rules.lisp") (text-file grasps "grasps.lisp")))
 
+(defun force-grasps (&optional (newtons 20))
+  "Return the text of the shipped grasps with a gripper whose FINGER-FORCE is NEWTONS."
+  (changed (file-text "grasps.lisp") "'(FINGER-LENGTH"
+           (format nil "'(FINGER-FORCE ~a FINGER-LENGTH" newtons)))
+
+(defun force-knowledge (&optional (newtons 20))
+  "Return the shipped knowledge with a gripper whose FINGER-FORCE is NEWTONS."
+  (values (text-knowledge (file-text "rules.lisp") (force-grasps newtons))))
+
 (defun knowledge-reports (rules grasps)
   "Return the reports of errors in the texts RULES and GRASPS."
   (mapcar #'princ-to-string
@@ -620,7 +629,9 @@ Half of the boxes are of a size that a hand can hold."
                           collect (plist member)))
                    ((supergrip::json-array-p value)
                     (mapcar #'plist (supergrip::json-array-elements value)))
-                   ((supergrip::json-literal-p value) nil)
+                   ((supergrip::json-literal-p value)
+                    (cdr (assoc (supergrip::json-literal-text value)
+                                '(("true" . t) ("false" . :false)) :test #'string=)))
                    (t value))))
     (plist (supergrip::read-json (supergrip-data:string-source line)))))
 

@@ -10,8 +10,9 @@
 the input; FORMAT is :TRACE, :LISP, :JSON, the name of a writer, or NIL, as the input.  BAD counts the error records;
 BROKEN is true if one of them was an internal error.  LAST, after an error record, whose box may go
 on, is the line where it ended, or :REST once it did go on.  PLANS holds the plans for a report, the
-latest first, if KEEP is true.  ALL says how many alternatives a record has, NIL for none.
-MODELS says where a file of each box goes, if not NIL; LOST is true if one could not be written."
+latest first, if KEEP is true; MARGIN is as for PLAN.  ALL says how many alternatives a record
+has, NIL for none.  MODELS says where a file of each box goes, if not NIL; LOST is true if one
+could not be written."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
   (index :paper :type keyword)
@@ -24,6 +25,7 @@ MODELS says where a file of each box goes, if not NIL; LOST is true if one could
   (keep nil) (plans '() :type list)
   (all nil :type (or null fixnum))
   (models nil) (lost nil)
+  (margin nil)
   (after-record nil :type (or null function)))
 
 (defun run-batch (batch descriptor)
@@ -237,14 +239,16 @@ and whether they are ours."
   (handler-case
       (let ((plan (plan (canonical-box description nil line)
                         :knowledge (batch-knowledge batch) :gamma (batch-gamma batch)
-                        :index (batch-index batch))))
+                        :index (batch-index batch) :margin (batch-margin batch))))
         (when (batch-keep batch)
           (push plan (batch-plans batch)))
         (when (batch-models batch)
           (write-model batch plan line))
         (case (batch-format batch)
           (:trace (with-output-to-string (out) (write-transcript plan out)))
-          ((:lisp :json) (plan-record plan :line line :all (batch-all batch)))
+          ((:lisp :json)
+           (record-in-units (plan-record plan :line line :all (batch-all batch))
+                            (%box-units (plan-box plan))))
           (t (writer-result batch plan line))))
     (box-error (condition)
       (let ((problems (input-error-problems condition)))
@@ -279,7 +283,8 @@ and whether they are ours."
                       (loop for problem in problems
                             collect (visible-text (problem-reason problem)))))
       ((:lisp :json) (error-record problems :name name :line line :index (batch-index batch)
-                                            :all (batch-all batch)))
+                                            :all (batch-all batch)
+                                            :carried (description-carried description)))
       (t (let ((writer (find-writer (batch-format batch))))
            (tell-of-none (writer-kind writer) name line reason)
            (written-mistake writer name reason))))))
@@ -315,13 +320,19 @@ there is none."
               (setf (batch-lost batch) t)
               (tell "supergrip: ~a: ~a" file condition)))))))
 
+(defun described (key description)
+  "Return the clause for KEY, a keyword, in DESCRIPTION, which need not be valid, or NIL."
+  (let* ((clauses (unwrap-box description))
+         (number (and (listp clauses) (clause-number key clauses)))
+         (clause (and number (nth number clauses))))
+    (and (listp (rest clause)) clause)))
+
 (defun description-name (description)
   "Return the name in DESCRIPTION, which need not be valid, or NIL."
-  (let ((clauses (unwrap-box description)))
-    (when (consp clauses)
-      (loop for clause in clauses
-            when (and (consp clause)
-                      (or (equal (first clause) "name") (name= (first clause) "NAME"))
-                      (consp (rest clause))
-                      (stringp (second clause)))
-              return (second clause)))))
+  (let ((name (second (described :name description))))
+    (and (stringp name) name)))
+
+(defun description-carried (description)
+  "Return what the box of DESCRIPTION, which need not be valid, carries along, or NIL."
+  (let ((clause (described :data description)))
+    (and clause (key-value (find-key :data) (rest clause)))))

@@ -101,6 +101,7 @@ an array and VALUE is none."
                       (write-string ": " stream)
                       (write-json-value (cdr member) stream (1+ depth)))))
           ((json-literal-p value) (write-string (json-literal-text value) stream))
+          ((json-number-p value) (write-string (json-number-text value) stream))
           ((stringp value) (text value))
           ((symbolp value) (text (symbol-name value)))
           (t (write-string (form-text value) stream)))))

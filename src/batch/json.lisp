@@ -14,6 +14,14 @@
   "true, false or null, by its TEXT."
   (text "" :type string))
 
+(defstruct (json-number (:constructor make-json-number (text value)))
+  "A number whose TEXT is kept; VALUE is as READ-DATUM returns it."
+  (text "" :type string) value)
+
+(defparameter +verbatim-key+ "data"
+  "The key of an outermost object in whose value numbers keep their text.")
+(defvar *verbatim* nil "True while such a value is being read.")
+
 (defparameter +literals+
   (mapcar #'make-json-literal '("true" "false" "null"))
   "The three literals.")
@@ -51,7 +59,8 @@ the first character of the next value, or NIL at the end."
 
 (defun read-json (source)
   "Read the JSON value that SOURCE stands at, and return it: a number as READ-DATUM returns it, a
-string, a JSON-ARRAY, a JSON-OBJECT or a JSON-LITERAL.  Signals a SYNTAX-ERROR."
+string, a JSON-ARRAY, a JSON-OBJECT or a JSON-LITERAL; under the key data of an object,
+JSON-NUMBERs for numbers.  Signals a SYNTAX-ERROR."
   (start-record source)
   (read-value source 0))
 
@@ -117,7 +126,9 @@ WHAT names it for the reports."
     (next source)
     (unless (skip-white source)
       (fail-at source line column "the key \"~a\" has no value" (excerpt key)))
-    (cons key (read-value source depth))))
+    (cons key (if (and (= depth 1) (string= key +verbatim-key+))
+                  (let ((*verbatim* t)) (read-value source depth))
+                  (read-value source depth)))))
 
 (defun excerpt (text)
   "Return the first characters of TEXT, for a report."
@@ -216,7 +227,9 @@ A surrogate alone, which is no character, becomes U+FFFD, as bytes that are not 
     (when (zerop count)
       (fail source "~a is not allowed here" (character-description (peek source))))
     (let ((token (source-token source)))
-      (cond ((json-number-p token count) (token-number source count line column))
+      (cond ((number-text-p token count)
+             (let ((number (token-number source count line column)))
+               (if *verbatim* (make-json-number (subseq token 0 count) number) number)))
             ((find-literal token count))
             (t (fail-at source line column
                         "~a is not JSON; 12, -0.5, 1e-3, \"a name\", true, false and null are"
@@ -228,7 +241,7 @@ A surrogate alone, which is no character, becomes U+FFFD, as bytes that are not 
                (and (= count (length text)) (string= token text :end1 count))))
            +literals+))
 
-(defun json-number-p (token count)
+(defun number-text-p (token count)
   "True if the first COUNT characters of TOKEN are a number of JSON's grammar: no + before it, no 0
 before its digits, and digits on both sides of a point."
   (declare (type (simple-array character (*)) token) (fixnum count))

@@ -24,6 +24,7 @@ record a box to standard output, in the same order: the best of seven grasps for
   --hand DIR                a hand's own gripper.lisp, rules.lisp and grasps.lisp; where DIR lacks one
                             of the last two, what is built in serves
   --gamma X                 from 0, forces alone, to 1, velocities alone; 0.5 by default
+  --margin X                multiply weights, and needs in N or lbf, by X
   --index paper|exact       what grasps are rated by: the paper's index, or what their contacts can
                             really do, proved, which takes a thousand times as long
   --all N                   also write the N best possible grasps of each box, the best first, with all
@@ -79,6 +80,7 @@ Examples:
     ("--gripper" :gripper :file)
     ("--hand" :hand :file)
     ("--gamma" :gamma :gamma)
+    ("--margin" :margin :factor)
     ("--index" :index :choice "paper" "exact")
     ("--all" :all :count 1000)
     ("--depth-limit" :depth-limit :count 1000)
@@ -139,6 +141,10 @@ of REST, the arguments after it."
                   number
                   (misused "~a is a number from 0, forces alone, to 1, velocities alone, not ~a"
                            name text))))
+    (:factor (let ((number (text-number text)))
+               (if (and number (plusp number))
+                   number
+                   (misused "~a is a number above 0, not ~a" name text))))
     (:count (let ((number (text-number text)))
               (if (and (integerp number) (<= 1 number (first bounds)))
                   number

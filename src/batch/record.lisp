@@ -10,7 +10,7 @@
 :GRASP :MATCHING :QUALITY  of the best grasp, the faces for N1 N2 O1 O2 A1 A2.
 :U-W :U-T  the radii of forces and velocities; NIL where the task needs none.
 :LIMITING  (:FORCE axis :VELOCITY axis), as \"about Y\".
-:OFFSET  the grasp centre from the box centre, along X Y Z, in cm.
+:OFFSET  the grasp centre from the box centre, along X Y Z.
 :APPROACH  a unit vector in the box frame, from the palm to the box.
 :CONTACTS  as CANDIDATE-CONTACTS has them: (:SURFACE face :POSITION p :NORMAL n :FINGER name) each.
 :TRIED :POSSIBLE  how many candidates were tried, and how many of them are possible.
@@ -21,10 +21,16 @@
 In exact mode also, of the best grasp (see src/plan/exact.lisp):
 :BETA  (LOWER UPPER), the exact radius, LOWER certified or NIL; NIL where the task needs no force.
 :SQUEEZE :FRICTION-MARGIN  CANDIDATE-SQUEEZE, CANDIDATE-FRICTION-MARGIN.
+Of a box whose needs are absolute also
+:FITS  CANDIDATE-FITS of the best grasp: T, :FALSE or NIL.
 If the box has a POSE:
 :WORLD  where the hand of the best grasp is in the world, as :HAND: see CANDIDATE-WORLD.
 If ALL, a number, is given:
-:ALTERNATIVES  at most ALL of the possible grasps, the best first: see ALTERNATIVES."
+:ALTERNATIVES  at most ALL of the possible grasps, the best first: see ALTERNATIVES.
+Of a box with DATA
+:DATA  what it carries along.
+
+Lengths are in cm, forces in finger forces: see RECORD-IN-UNITS."
   (let* ((best (plan-best plan))
          (contacts (and best (candidate-contacts best plan)))
          (candidates (plan-candidates plan)))
@@ -36,7 +42,9 @@ If ALL, a number, is given:
                          :possible (count :possible candidates :key #'%candidate-outcome)
                          :reason (plan-reason plan))
                    (further-part best contacts plan)
-                   (and all (list :alternatives (alternatives plan all)))))))
+                   (and all (list :alternatives (alternatives plan all)))
+                   (let ((carried (getf (%box-others (plan-box plan)) :data)))
+                     (and carried (list :data carried)))))))
 
 (defun alternatives (plan most)
   "Return at most MOST of the possible grasps of PLAN, the best first: of each, a plist, what a record
@@ -48,10 +56,12 @@ tells of the best, from :GRASP to :CONTACTS and from :SURE on."
 (defun further-part (best contacts plan)
   "Return the part of a record that tells more of the grasp BEST, with CONTACTS, of PLAN, or of none."
   (let ((hand (and best (contacts-hand best contacts (plan-box plan)))))
-    (list* :sure (and best (candidate-sure best plan))
-           :hand hand
-           (append (index-part (plan-index plan) best plan)
-                   (world-part hand (%box-pose (plan-box plan)))))))
+    (append (list :sure (and best (candidate-sure best plan))
+                  :hand hand)
+            (index-part (plan-index plan) best plan)
+            (and (absolute-units-p (%box-units (plan-box plan)))
+                 (list :fits (and best (candidate-fits best plan))))
+            (world-part hand (%box-pose (plan-box plan))))))
 
 (defun world-part (hand pose)
   "Return the part of a record that tells where HAND, or none, is in the world, if its box has a POSE."
@@ -87,9 +97,10 @@ PLAN, or of none.")
             :approach (candidate-approach best)
             :contacts contacts)))
 
-(defun error-record (problems &key name line (index :paper) all)
+(defun error-record (problems &key name line (index :paper) all carried)
   "Return the record of a box that can't be used because of PROBLEMS: as PLAN-RECORD gives it, with
-:STATUS \"error\", the problems in one :REASON, and each in :PROBLEMS as (:LINE l :COLUMN c :TEXT t)."
+:STATUS \"error\", the problems in one :REASON, and each in :PROBLEMS as (:LINE l :COLUMN c
+:TEXT t).  CARRIED is what the box carries along, or NIL."
   (list* :name name
          :line line
          :status "error"
@@ -104,7 +115,8 @@ PLAN, or of none.")
                        :sure nil
                        :hand nil)
                  (index-part index nil nil)
-                 (and all (list :alternatives nil)))))
+                 (and all (list :alternatives nil))
+                 (and carried (list :data carried)))))
 
 (defun problems-reason (problems)
   "Return PROBLEMS in one line."
@@ -114,6 +126,28 @@ PLAN, or of none.")
   "Return PROBLEM as line LINE, column COLUMN: TEXT."
   (format nil "~@[line ~d, ~]~@[column ~d: ~]~a" (problem-line problem) (problem-column problem)
           (problem-text problem)))
+
+;;; Units
+
+(defparameter +record-measures+
+  '((:offset . :length) (:position . :length) (:opening . :length) (:squeeze . :force))
+  "The keys of a record, and of what is in it, whose numbers have a unit, and what they measure.")
+
+(defun record-in-units (record units)
+  "Return RECORD with its lengths and forces in UNITS, those of the box."
+  (labels ((numbers (value measure)
+             (cond ((null value) nil)
+                   ((consp value) (loop for part in value collect (numbers part measure)))
+                   (t (in-units value measure units))))
+           (walk (value)
+             (cond ((atom value) value)
+                   ((keywordp (first value))
+                    (loop for (key value) on value by #'cddr
+                          for measure = (cdr (assoc key +record-measures+))
+                          collect key
+                          collect (if measure (numbers value measure) (walk value))))
+                   (t (mapcar #'walk value)))))
+    (if units (walk record) record)))
 
 ;;; Lisp
 
@@ -125,9 +159,11 @@ PLAN, or of none.")
 (defun put-lisp (value output)
   (etypecase value
     (null (put-text output "NIL"))
+    ((eql t) (put-text output "T"))
     (string (put-lisp-string value output))
     (integer (put-integer output value))
     (double-float (put-double output value t))
+    (carried (put-lisp-data (carried-value value) output))
     (keyword (put-octet output 58)
      (put-text output (symbol-name value)))
     (cons (put-octet output 40)
@@ -136,38 +172,23 @@ PLAN, or of none.")
               (when rest (put-octet output 32)))
      (put-octet output 41))))
 
-(declaim (inline control-code-p))
-(defun control-code-p (code)
-  "True if CODE, above 31, is that of a character that a terminal obeys or that ends a line."
-  (and (> code 126) (or (< code 160) (= code #x2028) (= code #x2029))))
-
-(defun put-lisp-string (text output)
-  "Put TEXT between double quotes.  Lisp has no escapes for control characters, and a record is one
-line: they become their pictures, as U+240A for a newline, or their names, as <U+0085>."
-  (put-octet output 34)
-  (loop for character across (the string text)
-        for code = (char-code character)
-        do (cond ((< code 32) (put-code output (+ #x2400 code)))
-                 ((= code 127) (put-code output #x2421))
-                 ((< 127 code 160) (put-text output (format nil "<~a>" (code-text character))))
-                 (t (when (or (= code 34) (= code 92)) (put-octet output 92))
-                    (put-character output character))))
-  (put-octet output 34))
-
 ;;; JSON
 
 (defun write-json-record (record output)
   "Put RECORD into OUTPUT as one line of JSON: a plist is an object, :U-W the key \"u_w\", another
-list an array, NIL null."
+list an array, NIL null, T true, :FALSE false."
   (put-json record output)
   (put-octet output 10))
 
 (defun put-json (value output)
   (etypecase value
     (null (put-text output "null"))
+    ((eql t) (put-text output "true"))
+    ((eql :false) (put-text output "false"))
     (string (put-json-string value output))
     (integer (put-integer output value))
     (double-float (put-double output value))
+    (carried (put-json-data (carried-value value) output))
     (cons (if (keywordp (first value))
               (put-json-object value output)
               (put-json-array value output)))))
@@ -192,13 +213,3 @@ list an array, NIL null."
   (or (get key 'json-key)
       (setf (get key 'json-key)
             (format nil "\"~a\":" (substitute #\_ #\- (string-downcase key))))))
-
-(defun put-json-string (text output)
-  (put-octet output 34)
-  (loop for character across (the string text)
-        for code = (char-code character)
-        do (cond ((or (< code 32) (control-code-p code))
-                  (put-text output (format nil "\\u~4,'0x" code)))
-                 (t (when (or (= code 34) (= code 92)) (put-octet output 92))
-                    (put-character output character))))
-  (put-octet output 34))

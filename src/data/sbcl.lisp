@@ -66,6 +66,17 @@ caller has set."
   "As WITH-PLAIN-FLOATS; where an operation has no value, it gives an infinity or a NaN."
   `(with-float-modes (+float-flags+) ,@body))
 
+;;; Decimals
+
+(defun exact-decimal (number)
+  "Return the rational that the shortest decimal of NUMBER, a double, is; of a rational, itself."
+  (if (or (rationalp number) (zerop number))
+      (rational number)
+      (multiple-value-bind (exponent digits) (sb-impl::flonum-to-digits (abs number))
+        (* (if (minusp number) -1 1)
+           (parse-integer digits)
+           (expt 10 (- exponent (length digits)))))))
+
 ;;; What the Lisp reader makes of a backquote
 
 (defun backquote-p (form)

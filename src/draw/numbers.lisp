@@ -62,12 +62,14 @@ very large or small.  What is not zero is not written as zero."
         (format nil "~ae~d" first-digits power))))
 
 (defun length-text (number)
-  "Return NUMBER, a length in cm, for a reader."
-  (quantity number 3))
+  "Return NUMBER, a length in cm, for a reader, in *UNITS*."
+  (quantity (in-units number :length) 3))
 
 (defun size-text (sizes)
-  "Return the SIZES of a box, in cm, for a reader."
-  (format nil "~{~a~^ × ~} cm" (mapcar (lambda (size) (quantity size 4)) sizes)))
+  "Return the SIZES of a box, in cm, for a reader, in *UNITS*."
+  (with-unit (format nil "~{~a~^ × ~}" (mapcar (lambda (size) (quantity (in-units size :length) 4))
+                                               sizes))
+    :length))
 
 (defun list-text (items)
   "Return ITEMS as \"a\", \"a and b\", or \"a, b and c\"."
@@ -92,8 +94,9 @@ very large or small.  What is not zero is not written as zero."
   "The least and the greatest size of a box, in cm, that can be drawn.")
 
 (defun box-text (box)
-  "Return name and sizes of BOX for a heading."
-  (format nil "~@[~a, ~]~a" (box-name box) (size-text (box-size box))))
+  "Return name and sizes of BOX, in its units, for a heading."
+  (let ((*units* (%box-units box)))
+    (format nil "~@[~a, ~]~a" (box-name box) (size-text (box-size box)))))
 
 (defun call-drawing (what function)
   "Call FUNCTION.  Numbers that leave the range of doubles in it are a DRAWING-ERROR about WHAT."
@@ -111,14 +114,16 @@ very large or small.  What is not zero is not written as zero."
   (call-drawing (box-text box) function))
 
 (defmacro drawing ((what) &body body)
-  "Run BODY, which draws WHAT, a plan or the name of a picture; signal a DRAWING-ERROR if it can't."
+  "Run BODY, which draws WHAT, a plan or the name of a picture, in the units of its box; signal a
+DRAWING-ERROR if it can't."
   (let ((value (gensym "WHAT")) (run (gensym "RUN")))
     `(let ((,value ,what))
        (flet ((,run () (with-standard-io-syntax
                          (let ((*print-readably* nil) (*read-eval* nil))
                            ,@body))))
          (cond ((stringp ,value) (call-drawing ,value #',run))
-               (t (call-drawing-box (plan-box ,value) #',run)))))))
+               (t (let ((*units* (%box-units (plan-box ,value))))
+                    (call-drawing-box (plan-box ,value) #',run))))))))
 
 (defun check-coordinate (number)
   "Return NUMBER, a coordinate of a picture, or signal an error if no picture can have it."

@@ -3,7 +3,8 @@
 (defpackage :supergrip-draw
   (:use :cl :supergrip)
   (:lock t)
-  (:import-from :supergrip #:need-plan #:check-knowledge-argument)
+  (:import-from :supergrip #:need-plan #:check-knowledge-argument #:%box-units #:*units* #:in-units
+                #:with-unit #:unit-phrase #:unit-text-of #:axis-measure #:absolute-units-p)
   (:import-from :supergrip-data #:native-path #:refuse-argument #:form-text)
   (:import-from :supergrip-chainer #:face-index #:face-name #:face-axis #:face-sign
                 #:opposite)

@@ -55,7 +55,8 @@ well it does."
 (defun weight-text (box)
   "Return the weight of BOX as its arrow is labelled, or NIL if it has none."
   (and (plusp (box-weight box))
-       (format nil "weight ~a~:[, at the centre of mass~;~]" (quantity (box-weight box))
+       (format nil "weight ~a~:[, at the centre of mass~;~]"
+               (with-unit (quantity (in-units (box-weight box) :force)) :force)
                (every #'zerop (box-centre box)))))
 
 (defun down-text (box)
@@ -64,7 +65,7 @@ well it does."
     (if (find 1 down :key #'abs)
         (format nil "~:[+~;~a~]~a" (minusp (reduce #'+ down)) +minus+
                 (char "XYZ" (position 1 down :key #'abs)))
-        (place-text down))))
+        (format nil "(~{~a~^, ~})" (mapcar #'decimal down)))))
 
 (defun lying-text (box)
   "Return how BOX lies, a sentence, if it has a pose or a centre of mass of its own, or NIL."

@@ -85,11 +85,12 @@
 
 (defun fingers-text (subject)
   "Return where the fingers are, for a reader."
-  (format nil "Fingers: ~{~a~^, ~}; cm from the box centre."
+  (format nil "Fingers: ~{~a~^, ~}; ~a from the box centre."
           (loop for contact in (subject-contacts subject)
                 collect (format nil "~a on ~a at ~a" (contact-finger contact)
                                 (face-name (contact-face contact))
-                                (place-text (contact-position contact))))))
+                                (place-text (contact-position contact))))
+          (unit-text-of :length)))
 
 (defun candidate-title (candidate)
   (format nil "~a, ~a" (candidate-grasp candidate) (quality-text candidate)))

@@ -14,22 +14,24 @@
         maximize (reduce #'max (mapcar (lambda (row) (apply #'max row))
                                        (funcall function candidate plan)))))
 
-(defun draw-rows (rows limit most x y width)
+(defun draw-rows (rows limit most x y width &key (measure (constantly nil)))
   "Draw one row for each axis: a bar for what there is, a thick mark for what is needed, and their
-ratio; LIMIT is the name of the limiting axis, MOST the number at the end of the scale.  Returns the
-y below."
+ratio; MEASURE, a function of an axis, says what the numbers there measure; LIMIT is the name of
+the limiting axis, MOST the number at the end of the scale.  Returns the y below."
   (let* ((most (max most 1d-9))
          (left (+ x 66)) (room (- width 66 156)))
     (flet ((x-of (number) (+ left (* room (/ (max 0 number) most)))))
       (loop for (have need) in rows
             for name in +axis-names+
+            for axis from 0
             for top from y by 24
             for limiting = (equal name limit)
             do (draw-text name (list x (+ top 14)) :class (if limiting "bold" "plain"))
                (draw-rectangle left (+ top 3) (max 0.5 (- (x-of have) left)) 13 "have")
                (when (plusp need)
                  (draw-line (list (x-of need) top) (list (x-of need) (+ top 19)) "need"))
-               (draw-text (ratio-text have need limiting)
+               (draw-text (ratio-text (in-units have (funcall measure axis))
+                                      (in-units need (funcall measure axis)) limiting)
                           (list (+ left room 10) (+ top 14)) :class (if limiting "bold" "soft"))))
     (+ y (* 6 24))))
 
@@ -55,7 +57,8 @@ y below."
                (list x (+ y 35)) :class "soft")
     (draw-text (force-text "Forces" candidate plan) (list x (+ y 66)))
     (let ((below (draw-rows (force-rows candidate plan) (candidate-force-axis candidate)
-                            (greatest-of #'force-rows candidates plan) x (+ y 76) width)))
+                            (greatest-of #'force-rows candidates plan) x (+ y 76) width
+                            :measure #'axis-measure)))
       (when (strength-upper strength)
         (draw-strength strength (greatest-radius strengths) x (+ below 6) width))
       (incf below (strengths-height strengths width))
@@ -104,8 +107,9 @@ y below."
                                  collect (quality-words strength plan))))
       (draw-heading (if strengths "What each grasp has, against what the task needs"
                         "No grasp is possible")
-                    (list (format nil "~a. Forces in finger forces, torques in finger force × cm, ~
-                                       gamma ~a." (box-text (plan-box plan))
+                    (list (format nil "~a. Forces in ~a, torques in ~a, gamma ~a."
+                                  (box-text (plan-box plan)) (unit-phrase :force)
+                                  (or (unit-text-of :torque) "finger force × cm")
                                   (quantity (plan-gamma plan))))
                     width)
       (loop for strength in strengths

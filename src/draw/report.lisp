@@ -8,8 +8,17 @@
   "Write text made by CONTROL and ARGUMENTS into the page, escaped."
   `(write-string (safe (format nil ,control ,@arguments)) *out*))
 
-(defmacro with-page ((file title) &body body)
-  "Write an HTML page of TITLE, whose header and main parts BODY writes, to FILE.  Returns FILE."
+(defun units-words ()
+  "Return the units of a page about a box in *UNITS*."
+  (if *units*
+      (format nil "Lengths in ~a, forces in ~a, torques in ~a." (unit-phrase :length)
+              (unit-phrase :force) (or (unit-text-of :torque) "finger force × cm"))
+      (format nil "Lengths in cm,~%forces in units of one finger’s greatest normal force, ~
+                   torques in their product.")))
+
+(defmacro with-page ((file title &optional (units '(units-words))) &body body)
+  "Write an HTML page of TITLE, whose header and main parts BODY writes, to FILE; UNITS, a form,
+says in which units.  Returns FILE."
   `(with-output-to (*out* ,file)
      (format *out* "<!DOCTYPE html>~%")
      (markup
@@ -23,8 +32,8 @@
          (:svg :width "0" :height "0" :style "position: absolute" :aria-hidden "true"
           (format *out* +patterns+))
          ,@body
-         (:footer (:p "Box and contacts are to scale; fingers and palm are a diagram. Lengths in cm,
-forces in units of one finger’s greatest normal force, torques in their product.")))))
+         (:footer (:p "Box and contacts are to scale; fingers and palm are a diagram. "
+                      (cl-who:str ,units))))))
      (terpri *out*)))
 
 (defun put-figure (picture caption &optional class)
@@ -72,6 +81,8 @@ TOGETHER."
                                 (index-text (candidate-quality best))
                                 (and next (format nil "~a, has ~a" (candidate-grasp next)
                                                   (at-most-text next (candidate-quality next)))))
+                        (and (demand-on best plan)
+                             (with-minus (demand-text (demand-on best plan))))
                         (and (candidate-force-axis best)
                              (times-text "Forces" (candidate-force-radius best)
                                          (candidate-force-axis best)
@@ -122,13 +133,15 @@ TOGETHER."
      (:tbody
       (loop for (name value) in
             `(("Size along X, Y, Z" ,(size-text (box-size box)))
-              ("Weight" ,(format nil "~a finger forces" (quantity (box-weight box) 4)))
+              ("Weight" ,(format nil "~a ~a" (quantity (in-units (box-weight box) :force) 4)
+                                  (unit-phrase :force)))
               ,@(and (box-pose box)
                      `(("Down, in the box frame" ,(down-text box))))
               ,@(and (notevery #'zerop (box-centre box))
-                     `(("Centre of mass" ,(format nil "~a cm" (place-text (box-centre box))))))
+                     `(("Centre of mass" ,(with-unit (place-text (box-centre box)) :length))))
               ("Friction u" ,(quantity (box-friction box) 4))
-              ("Soft finger v" ,(format nil "~a cm" (quantity (box-soft-friction box) 4)))
+              ("Soft finger v" ,(with-unit (quantity (in-units (box-soft-friction box) :length) 4)
+                                   :length))
               ("Constrained faces" ,(if (box-constrained box)
                                         (list-text (box-constrained box))
                                         "none"))
@@ -136,19 +149,27 @@ TOGETHER."
               ("Selection parameter γ" ,(quantity gamma 4)))
             do (markup (:tr (:th :scope "row" (say "~a" name)) (:td (say "~a" value)))))))))
 
+(defun needs-caption ()
+  "Return the caption of the table of needs, of a box in *UNITS*."
+  (if (absolute-units-p *units*)
+      (format nil "What the task needs: forces in ~a, torques in ~a; velocities from 0 to 1"
+              (unit-phrase :force) (unit-phrase :torque))
+      "What the task needs, from 0 to 1"))
+
 (defun put-needs (box)
   "Write the table of what the task of BOX needs."
   (markup
     (:table
-     (:caption "What the task needs, from 0 to 1")
+     (:caption (say "~a" (needs-caption)))
      (:thead (:tr (:th :scope "col" "Axis") (:th :scope "col" "Force or torque")
                   (:th :scope "col" "Velocity or rotation")))
      (:tbody
       (loop for axis in +axis-names+
+            for number from 0
             for force in (box-force-needed box)
             for velocity in (box-velocity-needed box)
             do (markup (:tr (:th :scope "row" (say "~a" axis))
-                            (:td (say "~a" (quantity force 4)))
+                            (:td (say "~a" (quantity (in-units force (axis-measure number)) 4)))
                             (:td (say "~a" (quantity velocity 4))))))))))
 
 ;;; Pictures that fit a telephone
@@ -488,7 +509,10 @@ the index says why.  Returns the index's name, and the number of pages that can'
                                                                 (slug plan number) directory)))))
          (lost (count-if #'identity problems)))
     (values
-     (with-page ((merge-pathnames "index.html" directory) "SUPER-GRIP: all boxes")
+     (with-page ((merge-pathnames "index.html" directory) "SUPER-GRIP: all boxes"
+                 (if (some (lambda (plan) (%box-units (plan-box plan))) plans)
+                     "Each box in its own units."
+                     (units-words)))
        (:header
         (:h1 "All boxes")
         (:p :class "verdict"

@@ -251,12 +251,16 @@ box as seen edge-on, so that the box can't hide it."
     (draw-circle apex 2.2 (if hidden "contact-hidden" "contact") :title title)))
 
 (defun place-text (vector)
-  "Return VECTOR for a reader, in cm."
-  (format nil "(~{~a~^, ~})" (mapcar #'decimal vector)))
+  "Return VECTOR, in cm, for a reader, in *UNITS*."
+  (format nil "(~{~a~^, ~})"
+          (if *units*
+              (mapcar (lambda (number) (quantity (in-units number :length) 4)) vector)
+              (mapcar #'decimal vector))))
 
 (defun contact-title (contact)
-  (format nil "Finger ~a on ~a at ~a cm" (contact-finger contact)
-          (face-name (contact-face contact)) (place-text (contact-position contact))))
+  (format nil "Finger ~a on ~a at ~a" (contact-finger contact)
+          (face-name (contact-face contact))
+          (with-unit (place-text (contact-position contact)) :length)))
 
 (defun label-anchor (contact)
   "Return the point of the label of CONTACT: the knee of its finger, or a place on a straight one."
@@ -408,7 +412,8 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
       (note-strokes (list origin centre)))
     (unless (or *small* (not (subject-labelled subject)))
       (ask-for-label (if (> offset 1d-9)
-                         (format nil "grasp centre, offset ~a cm" (length-text offset))
+                         (format nil "grasp centre, offset ~a"
+                                 (with-unit (length-text offset) :length))
                          "grasp centre")
                      centre :away 7 :class "soft" :leader t))))
 
@@ -456,13 +461,15 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
 
 (defun view-description (view)
   "Return what VIEW is, in words: enough to find where any place of the box frame is seen."
-  (let ((camera (view-camera view)))
+  (let ((camera (view-camera view))
+        (scale (/ (view-scale view) (in-units 1 :length))))
     (flet ((plain (number digits) (fixed number digits #\-)))
-      (format nil "Seen from azimuth ~d°, elevation ~d°, ~a above; ~a units a cm; box centre at ~
+      (format nil "Seen from azimuth ~d°, elevation ~d°, ~a above; ~a units a ~a; box centre at ~
                    (~a, ~a)."
               (camera-azimuth camera) (camera-elevation camera)
               (face-name (camera-top camera))
-              (plain (view-scale view) (max 0 (- 6 (magnitude (view-scale view)))))
+              (plain scale (max 0 (- 6 (magnitude scale))))
+              (unit-text-of :length)
               (plain (first (view-origin view)) 3) (plain (second (view-origin view)) 3)))))
 
 ;;; Furniture
@@ -474,14 +481,15 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
         when (<= (* factor power) most) return (* factor power)))
 
 (defun draw-scale-bar (scale point)
-  "Draw a bar of a round length at SCALE units a cm, its left end at POINT."
-  (let* ((length (nice-length (/ 110 scale)))
+  "Draw a bar of a round length, in *UNITS*, at SCALE units a cm, its left end at POINT."
+  (let* ((scale (/ scale (in-units 1 :length)))
+         (length (nice-length (/ 110 scale)))
          (x (first point)) (y (second point)) (end (+ x (* length scale))))
     (draw-line point (list end y) "edge")
     (dolist (at (list x end))
       (draw-line (list at (- y 4)) (list at (+ y 4)) "edge"))
     (occupy (list x (- y 5) (- end x) 10))
-    (draw-text (format nil "~a cm" (length-text length)) (list x (+ y 18)))))
+    (draw-text (with-unit (quantity length) :length) (list x (+ y 18)))))
 
 (defun draw-axes (camera point names &optional (length 30))
   "Draw the three axes, called NAMES, at POINT."

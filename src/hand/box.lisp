@@ -10,7 +10,9 @@
 FRICTION the coefficient u; SOFT-FRICTION v, that of the soft finger's torque, in cm; CONSTRAINED a set of faces;
 FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z; FACTS a list of BOX-FACTs.
 DOWN is the unit vector of gravity, MASS-CENTRE the centre of mass from the box centre; PLAIN is true if
-these are -Z and the box centre."
+these are -Z and the box centre.
+UNITS are those that its description counts in, NIL for cm and finger forces.  Of a box in N, or
+whose mass is given, a finger force is 1 N until a plan knows the gripper: see BOX-FOR-GRIPPER."
   (name nil :read-only t)
   (size nil :type three :read-only t)
   (weight 0d0 :type double-float :read-only t)
@@ -20,6 +22,7 @@ these are -Z and the box centre."
   (force nil :type six :read-only t)
   (velocity nil :type six :read-only t)
   (facts '() :type list :read-only t)
+  (units nil :type (or null units) :read-only t)
   (others '() :type list :read-only t)  ; a plist of the values of keys without a slot of their own
   (line nil :read-only t)
   (down nil :type three :read-only t)        ; see pose.lisp
@@ -29,7 +32,9 @@ these are -Z and the box centre."
 (defun box-name (box) "Return the name of BOX, a string, or NIL." (%box-name box))
 (defun box-size (box) "Return the sizes of BOX along X Y Z, a list, in cm."
   (coerce (%box-size box) 'list))
-(defun box-weight (box) "Return the weight of BOX, in units of one finger's greatest normal force."
+(defun box-weight (box)
+  "Return the weight of BOX, in units of one finger's greatest normal force; as long as no plan
+was made for it, in N if it is given in N, lbf or kg."
   (%box-weight box))
 (defun box-friction (box) "Return the coefficient of friction of BOX, U." (%box-friction box))
 (defun box-soft-friction (box)
@@ -39,11 +44,21 @@ these are -Z and the box centre."
   (loop for face below 6
         when (logbitp face (%box-constrained box)) collect (face-name face)))
 (defun box-force-needed (box)
-  "Return the forces along X Y Z and the torques about X Y Z that the task needs, a list, 0 to 1."
+  "Return the forces along X Y Z and the torques about X Y Z that the task needs, a list: 0 to 1,
+or, if they are absolute, in finger forces and finger force x cm; as long as no plan was made for
+BOX, in N and N cm."
   (coerce (%box-force box) 'list))
 (defun box-velocity-needed (box)
   "Return the velocities along and about X Y Z that the task needs, a list, 0 to 1."
   (coerce (%box-velocity box) 'list))
 
-(define-printing (box box) "~@[~s ~]~{~a~^ x ~} cm"
-  (box-name box) (mapcar #'form-text (box-size box)))
+(defun sizes-text (box &optional (text #'form-text))
+  "Return the sizes of BOX in its own units, \"12.0 x 2.0 x 2.0 cm\"; TEXT makes a text of a
+number."
+  (let ((units (%box-units box)))
+    (with-unit (format nil "~{~a~^ x ~}"
+                       (loop for size in (box-size box)
+                             collect (funcall text (in-units size :length units))))
+      :length units)))
+
+(define-printing (box box) "~@[~s ~]~a" (box-name box) (sizes-text box))

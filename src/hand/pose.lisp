@@ -12,15 +12,20 @@ nearly as it was given."
   (position nil :type list :read-only t) (orientation nil :type list :read-only t))
 
 (define-box-key :pose :pose
-  #.(format nil "the place of the box centre in the world, x y z in cm, and a unit quaternion ~
+  #.(format nil "the place of the box centre in the world, x y z in ~~a, and a unit quaternion ~
                  x y z w, which turns the box there")
   ((40 0 12.5d0) (0 0 0 1))
-  :optional t)
-(define-box-key :centre :place "three numbers in cm, the centre of mass from the box centre"
+  :measure :length :optional t)
+(define-box-key :centre :place "three numbers in ~a, the centre of mass from the box centre"
   (0 0 -0.5d0)
-  :optional t)
+  :measure :length :optional t)
 
 ;;; Reading
+
+(defmethod each-number ((pose pose) function)
+  (let ((position (loop for number in (pose-position pose)
+                        collect (or (funcall function number 0) (return nil)))))
+    (and position (make-pose position (pose-orientation pose)))))
 
 (defmethod parse-values ((type (eql :place)) row values)
   (number-list row values 3 nil nil values))

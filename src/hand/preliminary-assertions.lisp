@@ -69,8 +69,9 @@ has the assertion."
 
 (defun apart-text (distance relation dimension threshold)
   "Return that two faces are DISTANCE apart, which stands in RELATION to the DIMENSION, THRESHOLD."
-  (destructuring-bind (distance threshold) (number-texts distance threshold)
-    (format nil "they are ~a cm apart, ~a ~a, ~a" distance relation dimension threshold)))
+  (destructuring-bind (distance threshold) (texts-in-units :length distance threshold)
+    (format nil "they are ~a apart, ~a ~a, ~a" (with-unit distance :length) relation dimension
+            threshold)))
 
 ;;; Their order is that of the predicates in a rule base.
 

@@ -42,13 +42,15 @@ a list of numbers, each that of an element."
                      (loop for row in *box-keys* collect (key-name *notation* row))))
           ((member row keys)
            (complain (clause-spot) "~a is given twice" (key-name *notation* row)))
+          ((find-rival row keys)
+           (complain (clause-spot) "~a stands in the place of ~a, and both are given: leave out one"
+                     (key-name *notation* (if (box-key-instead row) row (find-rival row keys)))
+                     (key-name *notation* (if (box-key-instead row) (find-rival row keys) row))))
           (t row))))
 
 (defun key-spot (key description)
   "Return where in DESCRIPTION, a list of clauses, that of KEY begins, as CLAUSE-SPOT does."
-  (let ((*clause* (position-if (lambda (clause)
-                                 (and (consp clause) (eq (key-named (first clause)) (find-key key))))
-                               description)))
+  (let ((*clause* (clause-number key description)))
     (clause-spot)))
 
 (defun complain-of-centre (values description)
@@ -57,9 +59,15 @@ a list of numbers, each that of an element."
     (when reason
       (complain (key-spot :centre description) "~a" reason))))
 
+(defun find-rival (row keys)
+  "Return the one of KEYS in whose place the key ROW stands, or that stands in its place, or NIL."
+  (find-if (lambda (other) (or (eq (box-key-key other) (box-key-instead row))
+                               (eq (box-key-key row) (box-key-instead other))))
+           keys))
+
 (defun box-values (description)
   "Return a plist of the values in DESCRIPTION, a list of clauses, complaining of what is wrong."
-  (let ((values '()) (keys '()) (*clause* 0))
+  (let ((values '()) (keys '()) (*clause* 0) (*units* (described-units description)))
     (dolist (clause description)
       (let ((row (clause-key clause keys)))
         (when row
@@ -69,12 +77,67 @@ a list of numbers, each that of an element."
     (complain-of-missing keys)
     (complain-of-no-need values)
     (complain-of-centre values description)
-    values))
+    (if (or *units* (getf values :mass)) (converted-values values description) values)))
+
+(defun clause-number (key description)
+  "Return the number of the clause of DESCRIPTION for KEY, a keyword, or NIL."
+  (let ((row (find-key key)))
+    (position-if (lambda (clause)
+                   (and (consp clause) (or (name= (first clause) key)
+                                           (equal (first clause) (box-key-json row)))))
+                 description)))
+
+(defun described-units (description)
+  "Return the units that DESCRIPTION, a list of clauses, names, or NIL.  In the place of wrong
+ones, of which is complained where they stand, come some that allow all needs."
+  (let ((number (clause-number :units description)))
+    (when number
+      (multiple-value-bind (units problems)
+          (let ((*clause* number))
+            (with-problems (key-value (find-key :units) (rest (nth number description)))))
+        (if problems
+            (make-units (unit-named "CM") (unit-named "N") 1)
+            units)))))
+
+(defun converted-values (values description)
+  "Return VALUES, those of DESCRIPTION in *UNITS*, in cm and finger forces; a mass becomes a
+weight.  As long as no gripper is known, a finger force is 1 N."
+  (let* ((mass (getf values :mass))
+         (units (if mass (units-with-mass (clause-number :mass description)) *units*))
+         (converted (list :units units)))
+    (dolist (row *box-keys*)
+      (let ((value (getf values (box-key-key row))))
+        (unless (or (null value) (eq (box-key-key row) :units))
+          (setf (getf converted (box-key-key row))
+                (or (measured-value row value (lambda (number measure)
+                                                (from-units number measure units)))
+                    (refuse-size row description))))))
+    (when mass
+      (setf (getf converted :weight) (or (exactly-times mass +standard-gravity+)
+                                         (refuse-size (find-key :mass) description))))
+    converted))
+
+(defun units-with-mass (clause)
+  "Return *UNITS* as they are for a box whose mass is given in the clause numbered CLAUSE."
+  (let ((*clause* clause))
+    (if *units*
+        (make-units (units-length *units*) (units-force *units*) 1
+                    (or (and (units-finger *units*) (units-spot *units*)) (clause-spot)))
+        (make-units (unit-named "CM") (unit-named "FINGER") 1 (clause-spot)))))
+
+(defun refuse-size (row description)
+  "Complain that what DESCRIPTION gives for the key ROW can't be converted."
+  (let ((*clause* (clause-number (box-key-key row) description)))
+    (complain (clause-spot) "~a can't be computed with: in cm, or N, it would be out of range, ~
+                             from 1e-300 to 1e300"
+              (clause-text *notation* row (rest (nth *clause* description))))))
 
 (defun complain-of-missing (keys)
   "Complain if KEYS lack one that a box must have.  Where the box was read, a parenthesis too many may
 have ended it."
-  (let ((missing (remove-if (lambda (row) (or (box-key-optional row) (member row keys)))
+  (let ((missing (remove-if (lambda (row)
+                              (or (box-key-optional row) (member row keys)
+                                  (find (box-key-key row) keys :key #'box-key-instead)))
                             *box-keys*)))
     (dolist (row missing)
       (complain *path* "~a is missing; it takes ~a" (key-name *notation* row) (key-takes row)))
@@ -97,7 +160,8 @@ have ended it."
 (VELOCITY-NEEDED (0 0.8 0.8 0 0.8 0.8))), in any order, with an optional (NAME \"pencil\") and
 (FACTS (FRAGILE (Z1)) (WET)), also inside (SETQ BOX '...).  Names may be of any package.  FILE and LINE are used in reports.
 
-Sizes in cm; weight in units of one finger's greatest normal force; V in cm; needs from 0 to 1.
+Sizes in cm; weight in units of one finger's greatest normal force; V in cm; needs from 0 to 1; or
+all in the units of (UNITS MM N), and (MASS kg) for the weight: see docs/languages.md.
 Signals a BOX-ERROR that holds all that is wrong with it."
   (canonical-box (handler-case (canonical form)
                    (syntax-error (condition)
@@ -130,12 +194,19 @@ Signals a BOX-ERROR that holds all that is wrong with it."
               (t (setf others (list* (box-key-key row) value others))))))
     (apply #'%make-box :line line :others others (append (gravity-slots others) slots))))
 
+(defun box-values-of (box)
+  "Return the plist of the values of BOX."
+  (loop for row in *box-keys*
+        collect (box-key-key row)
+        collect (funcall (box-key-reader row) box)))
+
 (defun box-with (box row value)
   "Return a box as BOX with VALUE for the key ROW."
-  (let ((values (loop for other in *box-keys*
-                      collect (box-key-key other)
-                      collect (funcall (box-key-reader other) box))))
+  (let ((values (box-values-of box)))
     (setf (getf values (box-key-key row)) value)
+    (loop for other in *box-keys*
+          when (eq (box-key-key row) (box-key-instead other))
+            do (setf (getf values (box-key-key other)) nil))
     (make-box values (%box-line box))))
 
 (defun check-description (description)

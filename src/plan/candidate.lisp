@@ -71,13 +71,15 @@ figures."
   workspace)
 
 (defmacro with-workspace ((workspace plan) &body body)
-  "Run BODY with WORKSPACE, one at the box of PLAN, which is given back after it."
+  "Run BODY with WORKSPACE, one at the box of PLAN, which is given back after it.  Numbers are put
+into words in the units of the box."
   (let ((memory (gensym)) (the-plan (gensym)))
     `(without-float-traps
        (let* ((,the-plan (need-plan ,plan))
               (,memory (start-plan (plan-box ,the-plan) (plan-knowledge ,the-plan)
                                    (plan-gamma ,the-plan) (plan-index ,the-plan)))
-              (,workspace (memory-client ,memory)))
+              (,workspace (memory-client ,memory))
+              (*units* (%box-units (plan-box ,the-plan))))
          (multiple-value-prog1 (progn ,@body)
            (give-back ,memory (plan-knowledge ,the-plan)))))))
 

@@ -212,6 +212,22 @@ needs no force, or places or weight are too large to compute with."
                    (grip-radius grip (%box-force box) (gravity-on box) gap absolute)
                  (values upper lower (coerce worst 'list))))))))
 
+(defun candidate-fits (candidate &optional (plan *plan*))
+  "Return T if the contacts of CANDIDATE of PLAN do the task at radius 1, all forces and torques
+together and in any direction, beside the weight: the sure radius or the certified one is 1 or more;
+:FALSE if they do not: the upper value is below 1.  NIL if neither was proved, or CANDIDATE is not
+possible.  This is for tasks whose needs are absolute."
+  (flet ((proved (&rest how)
+           (multiple-value-bind (upper lower) (apply #'candidate-exact-radius candidate plan how)
+             (cond ((and lower (>= lower 1)) t)
+                   ((< upper 1) :false)))))
+    (cond ((not (possible-p candidate)) nil)
+          ((every #'zerop (%box-force (plan-box (need-plan plan)))) t)
+          ((proved :gap 0.5d0))         ; where there is much to spare, that is proved soon
+          ((>= (candidate-sure candidate plan) 1) t)
+          ((proved))
+          ((proved :gap 1d-4 :absolute 1d-5)))))
+
 (defun candidate-squeeze (candidate &optional (plan *plan*))
   "Return the least cap on each finger's force with which the contacts of CANDIDATE of PLAN surely do
 the task at radius 1 and hold the weight, in units of a finger's greatest force: 1 or less if they do it

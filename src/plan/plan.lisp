@@ -142,14 +142,15 @@ EVENT-FACT)."
 (defun need-plan (plan)
   (if (plan-p plan) plan (error 'no-plan-error :given plan)))
 
-(defun plan (box &key (knowledge *knowledge*) (gamma *gamma*) (index :paper))
+(defun plan (box &key (knowledge *knowledge*) (gamma *gamma*) (index :paper) margin)
   "Return the plan for BOX, a box or a description of one (see PARSE-BOX).
 KNOWLEDGE holds the rules and grasps to use, GAMMA from 0 to 1 weighs velocities against forces.
 INDEX is :PAPER, or :EXACT: then closure, lifting and u_w are what the contacts can really do, proved
-(see docs/physics.md).
+(see docs/physics.md).  MARGIN, a number above 0, multiplies the weight of BOX, and its needs if
+they are absolute, as in (UNITS CM N).
 A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from several threads."
   (with-plain-floats
-    (let ((memory (start-plan box knowledge gamma index)))
+    (let ((memory (start-plan (if margin (box-at-margin box margin) box) knowledge gamma index)))
       (finish-plan memory knowledge (run-rules (knowledge-rulebase knowledge) memory)))))
 
 (defun try-grasp (name &rest arguments)
@@ -205,9 +206,22 @@ of BOX, and its workspace has tried nothing yet.  Return it."
                   (or (data-file-name (knowledge-rule-file knowledge)) "the rules")))
   memory)
 
+(defun ready-box (box knowledge)
+  "Return BOX, or the box that it describes, ready for plans with KNOWLEDGE."
+  (let ((box (if (box-p box) box (parse-box box))))
+    (if (%box-units box)
+        (box-for-gripper box (knowledge-graspbase knowledge)
+                         (or (data-file-name (gripper-source knowledge)) "the grasp file"))
+        box)))
+
+(defun box-at-margin (box margin)
+  "Return BOX, or the box that it describes, with MARGIN; with NIL as it is."
+  (let ((box (if (box-p box) box (parse-box box))))
+    (if margin (box-with-margin box margin) box)))
+
 (defun start-plan (box knowledge gamma &optional (index :paper))
   "Return a memory ready for a plan for BOX: one that another plan gave back, or a new one."
-  (let ((box (if (box-p box) box (parse-box box)))
+  (let ((box (ready-box box knowledge))
         (gamma (check-gamma gamma))
         (index (index-named index)))
     (prepare-memory (or (take-from (knowledge-spare knowledge)) (new-memory knowledge))

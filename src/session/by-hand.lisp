@@ -66,10 +66,8 @@ Source: the paper, Low-level System."
                                       (gamma *gamma*) (index :paper)
                                       (stream *standard-output*))
   "Do what TRY does."
-  (let* ((box (cond ((null given) (error 'no-box-error))
-                    ((box-p given) given)
-                    (t (parse-box given))))
-         (grasp (need-grasp name (check-knowledge-argument knowledge)))
+  (let* ((box (ready-box (or given (error 'no-box-error)) (check-knowledge-argument knowledge)))
+         (grasp (need-grasp name knowledge))
          (set (suggested-set suggestion))
          (stream (output-stream stream))
          (plan (try-without-rules (put-try grasp set (tried-before box knowledge) box

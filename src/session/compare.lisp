@@ -110,7 +110,6 @@ difference."
       (plainly
         (format stream "~a: ~:[can't~*~;~:*~a Q=~a~], was ~:[can't~*~;~:*~a Q=~a~]~%"
                 (or (box-name (difference-box difference))
-                    (format nil "~{~a~^ x ~} cm"
-                            (mapcar #'number-text (box-size (difference-box difference)))))
+                    (sizes-text (difference-box difference) #'number-text))
                 (and new-quality (choice-text new)) new-quality
                 (and old-quality (choice-text old)) old-quality)))))

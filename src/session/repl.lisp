@@ -22,13 +22,14 @@ and return the plan, which *PLAN* also holds.
 
 ARGUMENTS are keys and values: :BOX a box or a description of one, by default what (setq box ...)
 gave, which may also stand first, without its key; :KNOWLEDGE, by default what is in force; :GAMMA
-weighs velocities (1) against forces (0); :INDEX is :PAPER or :EXACT (see PLAN); :STREAM is where to print, NIL for not at all; :TRACE says
-how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger before each rule."
+weighs velocities (1) against forces (0); :INDEX is :PAPER or :EXACT, :MARGIN a factor of the
+weight (see PLAN); :STREAM is where to print, NIL for not at all; :TRACE says how much to print
+(see *TRACE-LEVEL*); :STEP, if true, stops in the debugger before each rule."
   (apply #'chain-box
          (checked-keys (if (or (null arguments) (keywordp (first arguments)))
                            arguments
                            (cons :box arguments))
-                       'forward-chain '(:box :knowledge :gamma :index :stream :trace :step)
+                       'forward-chain '(:box :knowledge :gamma :index :margin :stream :trace :step)
                        "(forward-chain box :gamma 0.3)")))
 
 (defun checked-keys (arguments function keys example)
@@ -43,11 +44,11 @@ how much to print (see *TRACE-LEVEL*); :STEP, if true, stops in the debugger bef
   arguments)
 
 (defun chain-box (&key ((:box given) *box*) (knowledge *knowledge*) (gamma *gamma*)
-                    (index :paper) (stream *standard-output*) ((:trace level) *trace-level*) step)
+                    (index :paper) margin (stream *standard-output*) ((:trace level) *trace-level*)
+                    step)
   "Do what FORWARD-CHAIN does."
-  (unless given
-    (error 'no-box-error))
-  (let ((level (check-trace-level level))
+  (let ((given (box-at-margin (or given (error 'no-box-error)) margin))
+        (level (check-trace-level level))
         (knowledge (check-knowledge-argument knowledge))
         (stream (output-stream stream)))
     (if (or step *traced* *breaks* (> level 1))

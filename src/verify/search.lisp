@@ -217,12 +217,6 @@ the first: EVER holds what was possible, a set of matchings for each grasp."
           do (unless ever-p
                (note-found hunt :vain rule grasp situation box :boxes boxes)))))
 
-(defun box-values-of (box)
-  "Return the plist of the values of BOX."
-  (loop for row in *box-keys*
-        collect (box-key-key row)
-        collect (funcall (box-key-reader row) box)))
-
 (defun search-grasps (knowledge domain situations gamma)
   "Search boxes of each of SITUATIONS of DOMAIN, and return the findings, how many boxes were
 searched, and how many there would be."

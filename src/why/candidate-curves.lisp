@@ -10,12 +10,12 @@
 
 (defun value-at (box row index)
   "Return the value of the key ROW of BOX, at INDEX if that is several numbers."
-  (let ((value (box-value box (box-key-key row))))
+  (let ((value (funcall (box-key-reader row) box)))
     (if (arrayp value) (aref value index) value)))
 
 (defun box-with-at (box row index value)
   "Return a box as BOX with VALUE for the key ROW, at INDEX if that is several numbers."
-  (let ((numbers (box-value box (box-key-key row))))
+  (let ((numbers (funcall (box-key-reader row) box)))
     (if (arrayp numbers)
         (let ((copy (copy-seq numbers)))
           (setf (aref copy index) value)

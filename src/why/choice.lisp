@@ -4,16 +4,18 @@
 
 (defstruct limit
   "What limits a radius: the AXIS in words, what the grasp HAS there, what the task NEEDS there with
-the effect of the offset, and the RADIUS."
-  axis has needs radius)
+the effect of the offset, in the units of the box, and the RADIUS.  MEASURE says what HAS and NEEDS
+measure: :FORCE, :TORQUE or NIL."
+  axis has needs radius measure)
 
 (defstruct (choice (:include explanation))
   "Why the best grasp of PLAN is the best.  SENTENCE says how it holds the box; FORCE and VELOCITY are
 LIMITs or NIL; SURE is CANDIDATE-SURE of the best; TRUTH is the EXACT-LIMIT of its forces, whatever
-the index is, or NIL; RUNNER-UP is the next candidate or NIL, MARGIN its distance in Q; CHANGES is a
+the index is, or NIL; DEMAND is a DEMAND, of absolute
+needs, or NIL; RUNNER-UP is the next candidate or NIL, MARGIN its distance in Q; CHANGES is a
 list of CHANGEs, the smallest first; STEPPED are the names of values that were only looked at in
 steps."
-  plan sentence force velocity sure truth runner-up margin (changes '()) (stepped '()))
+  plan sentence force velocity sure truth demand runner-up margin (changes '()) (stepped '()))
 
 ;;; How it holds the box
 
@@ -44,9 +46,12 @@ grasp-face, calls it: \"two fingers\" \"N1\" \"a finger\" \"N2\"."
             (fingers-on grasp (lambda (grasp-face) (face-name (svref faces grasp-face))))
             (face-name palm) (approach-text palm box))))
 
-(defun limit-at (axis has needs radius)
-  "Return the LIMIT of RADIUS on AXIS, 0 to 5, where the grasp HAS, and the task NEEDS, six numbers."
-  (make-limit :axis (axis-name axis) :has (aref has axis) :needs (aref needs axis) :radius radius))
+(defun limit-at (axis has needs radius &optional measure)
+  "Return the LIMIT of RADIUS on AXIS, 0 to 5, where the grasp HAS, and the task NEEDS, six
+numbers of MEASURE."
+  (let ((measure (part-measure measure axis)))
+    (make-limit :axis (axis-name axis) :has (in-units (aref has axis) measure)
+                :needs (in-units (aref needs axis) measure) :radius radius :measure measure)))
 
 (defstruct (exact-limit (:include limit))
   "What limits an exact radius: AXIS is that of the greatest component of MOTION, the worst, in which
@@ -76,7 +81,7 @@ EXACT-LIMIT.")
     (declare (ignore truth))
     (with-replay (workspace candidate plan)
       (limit-at (%candidate-force-limit candidate) (workspace-spare workspace)
-                (workspace-force-needs workspace) (candidate-force-radius candidate)))))
+                (workspace-force-needs workspace) (candidate-force-radius candidate) :wrench))))
 
 (defun force-limit (truth candidate plan)
   "Return the LIMIT of u_w of CANDIDATE, whose EXACT-LIMIT is TRUTH, or NIL if no force is needed."
@@ -134,10 +139,11 @@ EXACT-LIMIT.")
                    :truth truth
                    :velocity (and best (velocity-limit best plan))
                    :sure (and best (candidate-sure best plan))
+                   :demand (and best (demand-on best plan))
                    :runner-up (and best runner-up)
                    :margin (and best runner-up
                                 (- (candidate-quality best) (candidate-quality runner-up)))
-                   :changes (stable-sort changes #'< :key #'change-size)
+                   :changes (stable-sort changes #'< :key #'change-distance)
                    :stepped stepped))))
 
 (defun explain-best (&optional (plan (last-plan)))
@@ -146,13 +152,19 @@ runner-up, and which single need, friction or weight would have to change, and t
 choice to change."
   (print-answer (explain-choice plan)))
 
+(defmethod write-answer :around ((answer choice) stream)
+  (declare (ignore stream))
+  (let ((*units* (%box-units (plan-box (choice-plan answer)))))
+    (call-next-method)))
+
 (defmethod write-answer ((answer choice) stream)
   (format stream "~a.~%" (choice-sentence answer))
   (write-force-limit (choice-force answer) stream)
   (write-limit "Velocity" "moves with" nil (choice-velocity answer) stream)
-  (write-sure (choice-sure answer) (choice-truth answer) stream)
-  (unless (eq (choice-truth answer) (choice-force answer))
-    (write-truth (choice-truth answer) stream))
+  (cond ((choice-demand answer) (format stream "~a~%" (demand-text (choice-demand answer))))
+        (t (write-sure (choice-sure answer) (choice-truth answer) stream)
+           (unless (eq (choice-truth answer) (choice-force answer))
+             (write-truth (choice-truth answer) stream))))
   (write-meaning answer stream)
   (when (choice-runner-up answer)
     (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, but tried later~;a Q lower by ~@[at ~
@@ -189,7 +201,8 @@ choice to change."
         (number-texts (limit-has limit) (limit-needs limit) (limit-radius limit) 1)
       (declare (ignore one))
       (format stream "~a is limited ~a: the grasp ~a ~a~@[ ~a~], the task needs ~a; radius ~a.~%" kind
-              (limit-axis limit) verb has beyond needs radius))))
+              (limit-axis limit) verb (with-unit has (limit-measure limit)) beyond
+              (with-unit needs (limit-measure limit)) radius))))
 
 (defun write-sure (sure truth stream)
   "Write what SURE, a sure radius, is, if it is one; TRUTH is the EXACT-LIMIT, or NIL."
@@ -218,7 +231,8 @@ choice to change."
   "Write what a radius below 1, and Q, mean."
   (let ((truth (choice-truth answer)) (velocity (choice-velocity answer))
         (meaning "which is enough if the needs only say what matters more"))
-    (when (and truth (<= 0 (exact-limit-upper truth)) (below-one-p (exact-limit-upper truth)))
+    (when (and truth (null (choice-demand answer))
+               (<= 0 (exact-limit-upper truth)) (below-one-p (exact-limit-upper truth)))
       (format stream "The contacts bear at most ~a of the force asked for, ~a.~%"
               (first (number-texts (exact-limit-upper truth) 1)) meaning))
     (when (and velocity (below-one-p (limit-radius velocity)))
@@ -238,12 +252,16 @@ choice to change."
   "Return four texts of CHANGE: what is to be different, the value that it would have, the value that it
 has, and what would then be chosen."
   (list (change-what change)
-        (if (and (at-once-p (change-from change) (change-limit change))
-                 (= (change-to change) +most-at-once+))
-            "anything above 0"
-            (exact-number-text (change-to change)))
-        (exact-number-text (change-from change))
+        (if (change-at-once change) "anything above 0" (change-text (change-to change) change))
+        (change-text (change-from change) change)
         (choice-text (change-plan change))))
+
+(defun change-text (number change)
+  "Return NUMBER, of what CHANGE changes, with its unit if its box counts in some of its own."
+  (let ((units (%box-units (change-box change))))
+    (if units
+        (with-unit (exact-number-text number) (change-measure change) units)
+        (exact-number-text number))))
 
 (defun choice-text (plan)
   (if (plan-best plan)

@@ -32,8 +32,9 @@ input, where it comes from."
   (let ((input (find predicate (knowledge-inputs (plan-knowledge plan))
                      :key #'prepared-input-predicate)))
     (if input
-        (funcall (input-row-note (prepared-input-row input))
-                 face-list (plan-box plan) (prepared-input-threshold input))
+        (let ((*units* (%box-units (plan-box plan))))
+          (funcall (input-row-note (prepared-input-row input))
+                   face-list (plan-box plan) (prepared-input-threshold input)))
         "the box says so")))
 
 ;;; A fact follows only from what was known before it, so the derivations of a whole log are made in its

@@ -32,9 +32,11 @@ that is beyond an edge of its face, the worst first; :NONE if a form has no valu
     (if (consp overhangs)
         (destructuring-bind (shortfall grasp-face axis place length) (first overhangs)
           (declare (ignore shortfall))
-          (destructuring-bind (place edge) (number-texts place (* (signum place) 0.5d0 length))
-            (format nil "a finger on ~a would stand at ~a cm along ~a, beyond the edge at ~a"
-                    (face-of grasp-face (%candidate-matching candidate)) place (char "NOA" axis) edge)))
+          (destructuring-bind (place edge)
+              (texts-in-units :length place (* (signum place) 0.5d0 length))
+            (format nil "a finger on ~a would stand at ~a along ~a, beyond the edge at ~a"
+                    (face-of grasp-face (%candidate-matching candidate)) (with-unit place :length)
+                    (char "NOA" axis) edge)))
         "a form of CONTACTS has no value")))
 
 (defun closed-at-p (grasp registers u)
@@ -106,9 +108,11 @@ CLOSED-AT tells of a friction whether it does."
          (worst (reduce #'max shares))
          (axis (position worst shares)))
     (if (> worst 1)
-        (apply #'format nil "it can't hold the weight: the load ~a is ~a, the grasp bears ~a"
-               (axis-name axis) (number-texts (bounded (aref (workspace-load workspace) axis))
-                                         (aref (workspace-wrench workspace) axis)))
+        (destructuring-bind (load bears)
+            (texts-in-units (axis-measure axis) (bounded (aref (workspace-load workspace) axis))
+                            (aref (workspace-wrench workspace) axis))
+          (format nil "it can't hold the weight: the load ~a is ~a, the grasp bears ~a"
+                  (axis-name axis) (with-unit load (axis-measure axis)) bears))
         (format nil "it can't hold the weight: the load takes ~{~a of what the grasp bears ~a~^, ~
                      ~}, together ~a; the axes share the same friction, so the sum may be at most 1"
                 (loop for share in shares for axis from 0
@@ -135,11 +139,12 @@ can do no more."
 
 (defun describe-drop (candidate workspace)
   "Return in words that the contacts of CANDIDATE can't hold the weight, and how the box gives way."
-  (let ((weight (%box-weight (workspace-box workspace))))
+  (let ((weight (in-units (%box-weight (workspace-box workspace)) :force)))
     (multiple-value-bind (share witness) (held-share candidate workspace)
       (format nil "it can't hold the weight: the load is ~a, the contacts bear ~:[no weight~;~:*~a~] ~
                    in this direction; the box would give way, ~a"
-              (number-text weight) (and (plusp share) (number-text (* share weight)))
+              (with-unit (number-text weight) :force)
+              (and (plusp share) (number-text (* share weight)))
               (motion-text (map 'vector #'- witness) "moving" "turning")))))
 
 (defun finger-shortfall (candidate workspace)

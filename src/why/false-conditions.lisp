@@ -158,18 +158,23 @@ which hold what box and matching give: all that would have to change for it to b
 (defun axis-faces (axis matching)
   (format nil "~a ~a" (face-of (* 2 axis) matching) (face-of (1+ (* 2 axis)) matching)))
 
+(defun operand-measure (node)
+  "Return what NODE, an operand, measures, or NIL: that is not known of what conditions compute."
+  (and (or (distance-axis node) (places-axes node) (eql (input-of node) +v+))
+       :length))
+
 (defun operand-words (node figure grasp matching)
   "Return in words that NODE, an operand, is FIGURE."
   (let ((axis (distance-axis node)) (places (places-axes node)) (input (input-of node)))
-    (cond (axis (format nil "~a and ~a are ~a cm apart" (face-of (* 2 axis) matching)
-                        (face-of (1+ (* 2 axis)) matching) figure))
-          (places (format nil "the finger places on ~{~a~^ and ~} are ~a cm apart"
+    (cond (axis (format nil "~a and ~a are ~a apart" (face-of (* 2 axis) matching)
+                        (face-of (1+ (* 2 axis)) matching) (with-unit figure :length)))
+          (places (format nil "the finger places on ~{~a~^ and ~} are ~a apart"
                           (loop for axis in places collect (touched-face axis grasp matching))
-                          figure))
+                          (with-unit figure :length)))
           (input (format nil "~:[v~;u~] is ~a" (= input +u+) figure))
           ((constant-p node) (format nil "the number ~a" figure))
-          (t (format nil "what the conditions compute from ~{~a~^, ~} is ~a"
-                     (input-names node matching) figure)))))
+          (t (format nil "what the conditions compute from ~{~a~^, ~}~@[, in ~a,~] is ~a"
+                     (input-names node matching) (and *units* "cm") figure)))))
 
 (defparameter +demands+
   '(("DIST-PINCH" ("<" "<=") "the hand opens to ~a" "the hand holds less than ~a")
@@ -225,7 +230,8 @@ exchanged if TURNED."
 
 (defun comparison-words (fault grasp matching)
   (multiple-value-bind (node number op other other-number form) (comparison-parts fault)
-    (destructuring-bind (text other-text) (number-texts number other-number)
+    (destructuring-bind (text other-text)
+        (texts-in-units (operand-measure node) number other-number)
       (format nil "~a, ~a" (operand-words node text grasp matching)
               (demand-words node text op other-text other form)))))
 
@@ -304,7 +310,8 @@ exchanged if TURNED."
           (when (and axis (member op '("<" "<=") :test #'string=)
                      (= number (reduce #'min (free-widths (workspace-box workspace))
                                        :initial-value most-positive-double-float)))
-            (destructuring-bind (text limit-text) (number-texts number limit)
-              (format nil "the narrowest free pair, ~a, is ~a cm; ~a"
+            (destructuring-bind (text limit-text) (texts-in-units :length number limit)
+              (format nil "the narrowest free pair, ~a, is ~a; ~a"
                       (char "XYZ" (aref (matching-axes (%candidate-matching candidate)) axis))
-                      text (demand-words node text op limit-text other form)))))))))
+                      (with-unit text :length)
+                      (demand-words node text op limit-text other form)))))))))

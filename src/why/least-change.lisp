@@ -26,8 +26,9 @@ decides.")
 far as it can be, or two lists, of constrained faces or of facts; BOX is the changed box, PLAN the
 plan that results.  For a value, LIMIT is the nearest that does it, not rounded, and SIZE how far
 that is from FROM; THRESHOLD is NIL or, if a dimension of the gripper decides, how LIMIT stands to
-it, a string, its name and itself."
-  what from to box plan limit size threshold)
+it, a string, its name and itself.  All are in the units of the box; MEASURE is what they measure,
+and DISTANCE is SIZE in cm and finger forces.  AT-ONCE is true if anything above 0 does it."
+  what from to box plan limit size threshold measure distance at-once)
 
 (defstruct goal
   "What is to become true of a plan: TEST, a function of it.  WINNER is the same of the best, a
@@ -294,10 +295,14 @@ it is not, or the place itself.  NIL if there is none."
             (scale-float (coerce (1- (expt 2 53)) 'double-float) (1- exponent))
             (scale-float (coerce (+ mantissa direction) 'double-float) exponent)))))
 
+(defun thresholds-of (plan)
+  "Return the dimensions of the gripper of PLAN that are lengths or friction, an alist."
+  (remove "FINGER-FORCE" (knowledge-gripper (plan-knowledge plan)) :key #'car :test #'string=))
+
 (defun cuts (line from to)
   "Return the places strictly between FROM and TO, the nearest first, at which something may
 change at once: the dimensions of the gripper."
-  (let* ((gripper (knowledge-gripper (plan-knowledge (line-plan line))))
+  (let* ((gripper (thresholds-of (line-plan line)))
          (cuts (remove-if-not (lambda (cut) (< (min from to) cut (max from to)))
                               (remove-duplicates (mapcar #'cdr gripper)))))
     (sort cuts (if (< from to) #'< #'>))))
@@ -357,8 +362,8 @@ false and true, as of SAME and OTHER."
 (defun short-decimal-beyond (same other from other-p)
   "Return the shortest decimal, from three digits on, that is beyond OTHER as seen from FROM, of
 which OTHER-P is true, and false of the next one of as many digits towards FROM.  SAME is just
-before."
-  (let* ((direction (if (> other same) 1 -1))
+before, or equal but for rounding."
+  (let* ((direction (if (> other from) 1 -1))
          (exponent (decimal-exponent (rational (max same other)))))
     (loop for digits from 3 to 17
           for unit = (expt 10 (- exponent digits -1))
@@ -375,7 +380,7 @@ before."
 name of that and itself; or NIL."
   (let ((up (> place (line-from line))))
     (loop for (name . number) in (and (not (eq (box-key-type (line-row line)) :needs))
-                                      (knowledge-gripper (plan-knowledge (line-plan line))))
+                                      (thresholds-of (line-plan line)))
           for relation = (cond ((zerop number) nil)
                                ((= place number) (if up "no less than" "no more than"))
                                ((= place (next-double number (if up 1 -1)))
@@ -397,25 +402,66 @@ GOAL true; NIL if none does."
   (multiple-value-bind (place before) (nearest-place line goal)
     (when place
       (let* ((from (line-from line))
-             (true-p (lambda (value) (true-at-p line goal value)))
-             (to (if (at-once-p from place)
-                     (loop for value = +most-at-once+ then (/ value 10)
-                           while (> value place)
-                           when (funcall true-p value) return value
-                           finally (return place))
-                     (short-decimal-beyond before place from true-p)))
-             (box (line-box line to)))
-        (make-change :what (value-name (line-row line) (line-index line)) :from from :to to :box box
-                     :plan (plan-like (line-plan line) box) :limit place :size (abs (- place from))
-                     :threshold (threshold-at line goal place))))))
+             (at-once (and (at-once-p from place)
+                           (loop for value = +most-at-once+ then (/ value 10)
+                                 while (> value place)
+                                 when (true-at-p line goal value) return value
+                                 finally (return place)))))
+        (make-change-to line goal place (and (eql at-once +most-at-once+) t)
+                        (if at-once
+                            (in-line-units at-once line)
+                            (decimal-beyond before place line goal)))))))
 
-(defun line-end (plan goal row from)
-  "Return how far a line of the key ROW goes that is FROM in PLAN: needs to 1, others to four
-times what they are or to 2; sizes, and all if GOAL only depends on what is known of the box, also
-to four times the greatest dimension of the gripper."
-  (let ((reach (reduce #'max (knowledge-gripper (plan-knowledge plan))
-                       :key #'cdr :initial-value 0d0)))
-    (cond ((eq (box-key-type row) :needs) 1d0)
+(defun line-measure (line)
+  "Return what the value that varies along LINE measures."
+  (part-measure (box-key-measure (line-row line)) (line-index line)))
+
+(defun line-units (line) (%box-units (plan-box (line-plan line))))
+
+(defun in-line-units (number line)
+  "Return NUMBER, of what varies along LINE, in the units of its box."
+  (in-units number (line-measure line) (line-units line)))
+
+(defun off-line-units (number line)
+  "Return NUMBER, in the units of the box of LINE, in cm and finger forces; NIL if it is out of
+range."
+  (from-units number (line-measure line) (line-units line)))
+
+(defun decimal-beyond (before place line goal)
+  "Return the short decimal, in the units of the box of LINE, of what varies beyond PLACE, at
+which GOAL becomes true, as it is not at BEFORE."
+  (short-decimal-beyond (in-line-units before line) (in-line-units place line)
+                        (in-line-units (line-from line) line)
+                        (lambda (value)
+                          (let ((number (off-line-units value line)))
+                            (and number (true-at-p line goal number))))))
+
+(defun make-change-to (line goal place at-once to)
+  "Return the CHANGE of what varies along LINE to TO, in the units of its box, PLACE being the
+nearest at which GOAL is true, AT-ONCE if anything above 0."
+  (let* ((from (line-from line))
+         (box (line-box line (if (eql to (in-line-units place line)) ; no shorter decimal
+                                 place
+                                 (off-line-units to line))))
+         (threshold (threshold-at line goal place)))
+    (make-change :what (value-name (line-row line) (line-index line))
+                 :from (in-line-units from line) :to to :box box
+                 :plan (plan-like (line-plan line) box) :limit (in-line-units place line)
+                 :size (in-line-units (abs (- place from)) line) :distance (abs (- place from))
+                 :measure (line-measure line) :at-once at-once
+                 :threshold (and threshold
+                                 (list (first threshold) (second threshold)
+                                       (in-line-units (third threshold) line))))))
+
+(defun line-end (plan goal row index from)
+  "Return how far a line of the key ROW, at INDEX, goes that is FROM in PLAN: needs that are not
+absolute to 1, others to four times what they are or to 2; sizes, and all if GOAL only depends on
+what is known of the box, also to four times the greatest dimension of the gripper."
+  (let ((reach (reduce #'max (thresholds-of plan) :key #'cdr :initial-value 0d0))
+        (units (%box-units (plan-box plan))))
+    (cond ((and (eq (box-key-type row) :needs)
+                (not (and (box-key-absolute row) (absolute-units-p units))))
+           (from-units 1d0 (part-measure (box-key-measure row) index) units))
           ((or (consp (box-key-type row)) (null (goal-winner goal)))
            (max 2d0 (* 4 from) (* 4 reach)))
           (t (max 2d0 (* 4 from))))))
@@ -433,12 +479,12 @@ a size where the box still has its centre of mass inside."
 says."
   (loop with forms = (make-hash-table :test #'equal)
         with box = (plan-box plan)
-        for row in (remove-if-not (lambda (row) (box-value box (box-key-key row))) rows)
+        for row in (remove-if-not (lambda (row) (funcall (box-key-reader row) box)) rows)
         append (loop for index below (value-count row)
                      for from = (value-at box row index)
                      collect (make-line :plan plan :row row :index index :from from :forms forms
                                         :least (line-start box row index)
-                                        :most (line-end plan goal row from)))))
+                                        :most (line-end plan goal row index from)))))
 
 (defun find-changes (plan goal rows)
   "Return the CHANGEs of single values of the keys ROWS that make GOAL true of PLAN, as far as

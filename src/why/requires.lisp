@@ -148,7 +148,7 @@ does."
     (format stream "  ~a: ~a, not ~a~@[ (~{~a ~a, ~a~})~]~@[; then ~a~]~%" what to from
             (let ((threshold (change-threshold change)))
               (and threshold (list (first threshold) (second threshold)
-                                   (exact-number-text (third threshold)))))
+                                   (change-text (third threshold) change))))
             (and (eq (requirement-kind answer) :grasp) choice))))
 
 (defun write-face-change (change answer stream)

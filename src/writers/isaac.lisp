@@ -6,11 +6,13 @@
 (in-package :supergrip)
 
 (defun confidence (candidate plan)
-  "Return how sure CANDIDATE of PLAN is, 0 to 1: in exact mode the share of the forces needed that
-it surely bears; else Q/(1+Q), which orders grasps as Q does."
-  (let ((radius (candidate-force-radius candidate)) (quality (candidate-quality candidate)))
-    (if (and radius (eq (plan-index plan) :exact))
-        (min 1d0 radius)
+  "Return how sure CANDIDATE of PLAN is, 0 to 1: in exact mode, and where the needs are absolute,
+the share of the forces needed that it surely bears; else Q/(1+Q), which orders grasps as Q does."
+  (let* ((demand (demand-on candidate plan)) (quality (candidate-quality candidate))
+         (radius (cond (demand (demand-surely demand))
+                       ((eq (plan-index plan) :exact) (candidate-force-radius candidate)))))
+    (if radius
+        (max 0d0 (min 1d0 radius))
         (/ quality (+ 1d0 quality)))))
 
 (defun put-isaac-grasp (candidate plan number out)
