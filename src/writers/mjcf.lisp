@@ -24,28 +24,40 @@
 
 ;;; How hard the fingers press
 
-(defun press-with (contacts box share wrench)
-  "Return the normal forces with which the fingers at CONTACTS exert WRENCH on BOX if its friction
-were only SHARE of what it is, friction force and torque coupled as MuJoCo has them; or NIL."
-  (let ((forces (contact-forces (loop for contact in contacts
-                                      collect (list (getf contact :position)
-                                                    (getf contact :normal)))
-                                (* share (box-friction box)) (* share (box-soft-friction box))
-                                wrench :coupled t)))
+(defun normals-wrench (contacts)
+  "Return the wrench of fingers at CONTACTS that all press with 1, without friction."
+  (reduce (lambda (a b) (mapcar #'+ a b))
+          (loop for contact in contacts
+                for normal = (getf contact :normal)
+                collect (append normal (cross-product (getf contact :position) normal)))))
+
+(defun press-at-least (contacts box least wrench)
+  "Return the normal forces with which the fingers at CONTACTS exert WRENCH on BOX if each presses with
+at least LEAST, 0 to below 1, and uses no friction of that; NIL if they can't.  Friction force and
+torque are coupled, as MuJoCo has them."
+  (let* ((share (- 1d0 least))          ; what is left of each finger's force
+         (rest (mapcar (lambda (whole pressed) (/ (- whole (* least pressed)) share))
+                       wrench (normals-wrench contacts)))
+         (forces (contact-forces (loop for contact in contacts
+                                       collect (list (getf contact :position)
+                                                     (getf contact :normal)))
+                                 (box-friction box) (box-soft-friction box) rest :coupled t)))
     (loop for (force) in forces
           for contact in contacts
-          collect (max 0d0 (min 1d0 (reduce #'+ (mapcar #'* force (getf contact :normal))))))))
+          collect (+ least (* share (max 0d0 (min 1d0 (dot-product force
+                                                                   (getf contact :normal)))))))))
 
 (defun pressing (contacts box wrench)
-  "Return the normal forces, 0 to 1, with which the fingers at CONTACTS exert WRENCH on BOX and need
-as little of its friction as they can; NIL if they can't exert it."
-  (let ((best (press-with contacts box 1d0 wrench)) (low 0d0) (high 1d0))
+  "Return the normal forces, 0 to 1, with which the fingers at CONTACTS exert WRENCH on BOX, the finger
+that presses least as hard as it can; NIL if they can't exert it."
+  (let ((best (press-at-least contacts box 0d0 wrench)) (low 0d0) (high 1d0))
     (when best
       (loop repeat 8
-            do (let* ((share (/ (+ low high) 2)) (forces (press-with contacts box share wrench)))
+            do (let* ((least (/ (+ low high) 2))
+                      (forces (press-at-least contacts box least wrench)))
                  (if forces
-                     (setf best forces high share)
-                     (setf low share)))))
+                     (setf best forces low least)
+                     (setf high least)))))
     best))
 
 ;;; The file
@@ -99,7 +111,7 @@ without weight it is 1 g."
 
 (defun mjcf-text (plan &optional line)
   "Return the best grasp of PLAN, of the box in LINE, as a model for MuJoCo.  The key \"hold\" has
-the forces of the fingers that hold the weight with the least friction."
+the forces of the fingers that hold the weight, the weakest as great as can be."
   (let* ((best (plan-best plan)) (box (plan-box plan)) (contacts (candidate-contacts best plan))
          (newtons (or (finger-newtons plan) 1d0)) (limit (number-in-text newtons))
          (forces (pressing contacts box (map 'list #'- (gravity-on box)))))
