@@ -74,24 +74,35 @@ that presses least as hard as it can; NIL if they can't exert it."
             (xml-text (or (box-name box) "box")) (xml-text (grasp-words candidate)))
     (format out "  <option timestep=\"0.001\" integrator=\"implicitfast\" gravity=\"~a\" ~
                  cone=\"elliptic\" impratio=\"10\" noslip_iterations=\"20\"/>~%"
-            (spaced (if (zerop weight)
-                        '(0d0 0d0 0d0)
-                        (mapcar (lambda (part) (* +free-fall+ (/ part weight)))
-                                (subseq (coerce (gravity-on box) 'list) 0 3)))))
+            (spaced (mapcar (lambda (part) (if (zerop weight) 0d0 (* +free-fall+ part)))
+                            (box-down box))))
     (format out "  <default>~%    <geom condim=\"4\" friction=\"~a 0\" solref=\"0.02 1\" ~
                  solimp=\"0.99 0.999 0.0001\"/>~%  </default>~%"
             (spaced (list (box-friction box) (/ (box-soft-friction box) 100d0))))))
 
+(defun put-mass-centre (box mass out)
+  "Write to OUT how MASS, in kg, lies in BOX if its centre of mass is not its centre: as an even box of
+this size turns about its centre."
+  (let ((centre (metres (box-centre box))) (sizes (metres (box-size box))))
+    (unless (every #'zerop centre)
+      (format out "      <inertial pos=\"~a\" mass=\"~a\" diaginertia=\"~a\"/>~%" (spaced centre)
+              (number-in-text mass)
+              (spaced (destructuring-bind (x y z) (mapcar (lambda (size) (* size size)) sizes)
+                        (mapcar (lambda (sum) (/ (* mass sum) 12))
+                                (list (+ y z) (+ z x) (+ x y)))))))))
+
 (defun put-box-body (box newtons out)
   "Write the body of BOX to OUT; a finger presses with NEWTONS at most.  A body needs a mass:
 without weight it is 1 g."
-  (format out "    <body name=\"box\">~%      <freejoint name=\"box\"/>~%      ~
-               <geom name=\"box\" type=\"box\" size=\"~a\" mass=\"~a\" contype=\"1\" ~
-               conaffinity=\"2\" rgba=\"0.8 0.6 0.4 1\"/>~%    </body>~%"
-          (spaced (metres (mapcar (lambda (size) (/ size 2)) (box-size box))))
-          (number-in-text (if (zerop (box-weight box))
-                              0.001d0
-                              (/ (* newtons (box-weight box)) +free-fall+)))))
+  (let ((mass (if (zerop (box-weight box))
+                  0.001d0
+                  (/ (* newtons (box-weight box)) +free-fall+))))
+    (format out "    <body name=\"box\">~%      <freejoint name=\"box\"/>~%")
+    (put-mass-centre box mass out)
+    (format out "      <geom name=\"box\" type=\"box\" size=\"~a\" mass=\"~a\" contype=\"1\" ~
+                 conaffinity=\"2\" rgba=\"0.8 0.6 0.4 1\"/>~%    </body>~%"
+            (spaced (metres (mapcar (lambda (size) (/ size 2)) (box-size box))))
+            (number-in-text mass))))
 
 (defun tip-radius (box)
   "Return the radius of the fingertips on BOX, in cm."
