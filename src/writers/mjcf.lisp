@@ -76,8 +76,8 @@ that presses least as hard as it can; NIL if they can't exert it."
                  cone=\"elliptic\" impratio=\"10\" noslip_iterations=\"20\"/>~%"
             (spaced (mapcar (lambda (part) (if (zerop weight) 0d0 (* +free-fall+ part)))
                             (box-down box))))
-    (format out "  <default>~%    <geom condim=\"4\" friction=\"~a 0\" solref=\"0.02 1\" ~
-                 solimp=\"0.99 0.999 0.0001\"/>~%  </default>~%"
+    (format out "  <default>~%    <geom condim=\"4\" friction=\"~a 0\" solref=\"0.005 1\" ~
+                 solimp=\"0.999 0.9999 0.0001\"/>~%  </default>~%"
             (spaced (list (box-friction box) (/ (box-soft-friction box) 100d0))))))
 
 (defun put-mass-centre (box mass out)
@@ -93,10 +93,8 @@ this size turns about its centre."
 
 (defun put-box-body (box newtons out)
   "Write the body of BOX to OUT; a finger presses with NEWTONS at most.  A body needs a mass:
-without weight it is 1 g."
-  (let ((mass (if (zerop (box-weight box))
-                  0.001d0
-                  (/ (* newtons (box-weight box)) +free-fall+))))
+without weight it is as of a hundredth of a finger force."
+  (let ((mass (/ (* newtons (if (zerop (box-weight box)) 0.01d0 (box-weight box))) +free-fall+)))
     (format out "    <body name=\"box\">~%      <freejoint name=\"box\"/>~%")
     (put-mass-centre box mass out)
     (format out "      <geom name=\"box\" type=\"box\" size=\"~a\" mass=\"~a\" contype=\"1\" ~
@@ -118,7 +116,7 @@ without weight it is 1 g."
             (spaced normal) (number-in-text (* 10 newtons)))
     (format out "      <geom name=\"~a\" type=\"sphere\" size=\"~a\" mass=\"~a\" contype=\"2\" ~
                  conaffinity=\"1\" rgba=\"0.3 0.3 0.3 1\"/>~%    </body>~%"
-            name (number-in-text (/ radius 100d0)) (number-in-text (/ newtons 100)))))
+            name (number-in-text (/ radius 100d0)) (number-in-text (/ newtons 10)))))
 
 (defun mjcf-text (plan &optional line)
   "Return the best grasp of PLAN, of the box in LINE, as a model for MuJoCo.  The key \"hold\" has
