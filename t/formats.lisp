@@ -40,6 +40,18 @@ python3."
       (is (search "no FINGER-FORCE, so 1 N was taken" model))
       (is (search "<key name=\"hold\" ctrl=\"" model)))))
 
+(test how-a-box-lies-is-in-its-model
+  (let* ((plan (supergrip:plan (list* '(:pose (0 0 50) (1 0 0 0)) '(:centre 1 0 0.5d0) *good-box*)))
+         (model (supergrip::mjcf-text plan)))
+    (is (search "gravity=\"0.0 0.0 9.80665\"" model) "it stands on its head")
+    (is (search "<inertial pos=\"0.01 0.0 0.005\"" model))
+    (is (search "post_grasp_retreat:
+  direction: {header: {frame_id: \"\"}, vector: {x: 0.0, y: 0.0, z: -1.0}}"
+                (written-as :moveit plan 1)))
+    (is (not (search "<inertial" (supergrip::mjcf-text (pencil-plan)))))
+    (is (search "gravity=\"0.0 0.0 0.0\""
+                (supergrip::mjcf-text (supergrip:plan (changed-box :weight 0)))))))
+
 (test fingers-press-as-hard-as-they-can-and-hold-the-weight
   "By statics alone: what the fingers press holds the weight, and none can press more than its share."
   (let ((checked 0))
