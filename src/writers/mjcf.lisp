@@ -73,7 +73,7 @@ that presses least as hard as it can; NIL if they can't exert it."
                  </custom>~%"
             (xml-text (or (box-name box) "box")) (xml-text (grasp-words candidate)))
     (format out "  <option timestep=\"0.001\" integrator=\"implicitfast\" gravity=\"~a\" ~
-                 cone=\"elliptic\" impratio=\"10\" noslip_iterations=\"20\"/>~%"
+                 cone=\"elliptic\" impratio=\"100\" noslip_iterations=\"20\"/>~%"
             (spaced (mapcar (lambda (part) (if (zerop weight) 0d0 (* +free-fall+ part)))
                             (box-down box))))
     (format out "  <default>~%    <geom condim=\"4\" friction=\"~a 0\" solref=\"0.005 1\" ~
