@@ -275,6 +275,8 @@
                (:file "hands")
                (:file "documents")
                (:static-file "formats.py")
+               (:static-file "simulate.lisp")
+               (:static-file "simulate.py")
                (:static-file "fuzz.lisp")
                (:static-file "run.lisp")
                (:static-file "alone"))

@@ -70,6 +70,12 @@ def random_box(rng, number):
            "constrained": [f for f in ("X1", "Y2", "Z2") if rng.random() < 0.2],
            "force_needed": [rng.choice([0, rng.random()]) for _ in range(6)],
            "velocity_needed": [rng.choice([0, rng.random()]) for _ in range(6)]}
+    if rng.random() < 0.4:
+        turn = np.array([rng.gauss(0, 1) for _ in range(4)])
+        box["pose"] = {"position": [rng.uniform(-50, 50) for _ in range(3)],
+                       "orientation": list(turn / np.linalg.norm(turn))}
+    if rng.random() < 0.3:
+        box["centre"] = [rng.uniform(-0.4, 0.4) * size for size in box["size"]]
     name = NAMES[number % len(NAMES)]
     if name is not None:
         box["name"] = name
@@ -100,6 +106,12 @@ def axis(face):
     normal = np.zeros(3)
     normal["XYZ".index(face[0])] = 1 if face[1] == "1" else -1
     return normal
+
+
+def down(box):
+    """The direction of gravity in the frame of a box."""
+    turn = rotation(box["pose"]["orientation"]) if "pose" in box else np.eye(3)
+    return -turn[2]
 
 
 def check_hand(grasp, size):
@@ -204,6 +216,7 @@ def moveit_poses(text, boxes, answers, force):
             check(document["pre_grasp_approach"]["direction"]["header"]["frame_id"] == (name or ""))
             check(document["max_contact_force"] == force)
             near(list(document["pre_grasp_approach"]["direction"]["vector"].values()), grasp["approach"])
+            near(list(document["post_grasp_retreat"]["direction"]["vector"].values()), -down(box))
             pose = document["grasp_pose"]["pose"]
             poses.append((list(pose["position"].values()),
                           rotation(list(pose["orientation"].values())), document["grasp_quality"]))
@@ -236,7 +249,8 @@ def check_model(path, answer, box, force):
     weight = model.body("box").mass[0] * np.linalg.norm(model.opt.gravity)
     near(weight / force, box["weight"])
     if box["weight"]:
-        near(model.opt.gravity / np.linalg.norm(model.opt.gravity), [0, 0, -1])
+        near(model.opt.gravity / np.linalg.norm(model.opt.gravity), down(box))
+    near(model.body("box").ipos, np.array(box.get("centre", [0, 0, 0])) / 100)
     check(model.nu == len(answer["contacts"]))
     for contact in answer["contacts"]:
         finger, slider = model.geom(contact["finger"]), model.joint(contact["finger"])

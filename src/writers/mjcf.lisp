@@ -24,28 +24,40 @@
 
 ;;; How hard the fingers press
 
-(defun press-with (contacts box share wrench)
-  "Return the normal forces with which the fingers at CONTACTS exert WRENCH on BOX if its friction
-were only SHARE of what it is, friction force and torque coupled as MuJoCo has them; or NIL."
-  (let ((forces (contact-forces (loop for contact in contacts
-                                      collect (list (getf contact :position)
-                                                    (getf contact :normal)))
-                                (* share (box-friction box)) (* share (box-soft-friction box))
-                                wrench :coupled t)))
+(defun normals-wrench (contacts)
+  "Return the wrench of fingers at CONTACTS that all press with 1, without friction."
+  (reduce (lambda (a b) (mapcar #'+ a b))
+          (loop for contact in contacts
+                for normal = (getf contact :normal)
+                collect (append normal (cross-product (getf contact :position) normal)))))
+
+(defun press-at-least (contacts box least wrench)
+  "Return the normal forces with which the fingers at CONTACTS exert WRENCH on BOX if each presses with
+at least LEAST, 0 to below 1, and uses no friction of that; NIL if they can't.  Friction force and
+torque are coupled, as MuJoCo has them."
+  (let* ((share (- 1d0 least))          ; what is left of each finger's force
+         (rest (mapcar (lambda (whole pressed) (/ (- whole (* least pressed)) share))
+                       wrench (normals-wrench contacts)))
+         (forces (contact-forces (loop for contact in contacts
+                                       collect (list (getf contact :position)
+                                                     (getf contact :normal)))
+                                 (box-friction box) (box-soft-friction box) rest :coupled t)))
     (loop for (force) in forces
           for contact in contacts
-          collect (max 0d0 (min 1d0 (reduce #'+ (mapcar #'* force (getf contact :normal))))))))
+          collect (+ least (* share (max 0d0 (min 1d0 (dot-product force
+                                                                   (getf contact :normal)))))))))
 
 (defun pressing (contacts box wrench)
-  "Return the normal forces, 0 to 1, with which the fingers at CONTACTS exert WRENCH on BOX and need
-as little of its friction as they can; NIL if they can't exert it."
-  (let ((best (press-with contacts box 1d0 wrench)) (low 0d0) (high 1d0))
+  "Return the normal forces, 0 to 1, with which the fingers at CONTACTS exert WRENCH on BOX, the finger
+that presses least as hard as it can; NIL if they can't exert it."
+  (let ((best (press-at-least contacts box 0d0 wrench)) (low 0d0) (high 1d0))
     (when best
       (loop repeat 8
-            do (let* ((share (/ (+ low high) 2)) (forces (press-with contacts box share wrench)))
+            do (let* ((least (/ (+ low high) 2))
+                      (forces (press-at-least contacts box least wrench)))
                  (if forces
-                     (setf best forces high share)
-                     (setf low share)))))
+                     (setf best forces low least)
+                     (setf high least)))))
     best))
 
 ;;; The file
@@ -61,25 +73,34 @@ as little of its friction as they can; NIL if they can't exert it."
                  </custom>~%"
             (xml-text (or (box-name box) "box")) (xml-text (grasp-words candidate)))
     (format out "  <option timestep=\"0.001\" integrator=\"implicitfast\" gravity=\"~a\" ~
-                 cone=\"elliptic\" impratio=\"10\" noslip_iterations=\"20\"/>~%"
-            (spaced (if (zerop weight)
-                        '(0d0 0d0 0d0)
-                        (mapcar (lambda (part) (* +free-fall+ (/ part weight)))
-                                (subseq (coerce (gravity-on box) 'list) 0 3)))))
-    (format out "  <default>~%    <geom condim=\"4\" friction=\"~a 0\" solref=\"0.02 1\" ~
-                 solimp=\"0.99 0.999 0.0001\"/>~%  </default>~%"
+                 cone=\"elliptic\" impratio=\"100\" noslip_iterations=\"20\"/>~%"
+            (spaced (mapcar (lambda (part) (if (zerop weight) 0d0 (* +free-fall+ part)))
+                            (box-down box))))
+    (format out "  <default>~%    <geom condim=\"4\" friction=\"~a 0\" solref=\"0.005 1\" ~
+                 solimp=\"0.999 0.9999 0.0001\"/>~%  </default>~%"
             (spaced (list (box-friction box) (/ (box-soft-friction box) 100d0))))))
+
+(defun put-mass-centre (box mass out)
+  "Write to OUT how MASS, in kg, lies in BOX if its centre of mass is not its centre: as an even box of
+this size turns about its centre."
+  (let ((centre (metres (box-centre box))) (sizes (metres (box-size box))))
+    (unless (every #'zerop centre)
+      (format out "      <inertial pos=\"~a\" mass=\"~a\" diaginertia=\"~a\"/>~%" (spaced centre)
+              (number-in-text mass)
+              (spaced (destructuring-bind (x y z) (mapcar (lambda (size) (* size size)) sizes)
+                        (mapcar (lambda (sum) (/ (* mass sum) 12))
+                                (list (+ y z) (+ z x) (+ x y)))))))))
 
 (defun put-box-body (box newtons out)
   "Write the body of BOX to OUT; a finger presses with NEWTONS at most.  A body needs a mass:
-without weight it is 1 g."
-  (format out "    <body name=\"box\">~%      <freejoint name=\"box\"/>~%      ~
-               <geom name=\"box\" type=\"box\" size=\"~a\" mass=\"~a\" contype=\"1\" ~
-               conaffinity=\"2\" rgba=\"0.8 0.6 0.4 1\"/>~%    </body>~%"
-          (spaced (metres (mapcar (lambda (size) (/ size 2)) (box-size box))))
-          (number-in-text (if (zerop (box-weight box))
-                              0.001d0
-                              (/ (* newtons (box-weight box)) +free-fall+)))))
+without weight it is as of a hundredth of a finger force."
+  (let ((mass (/ (* newtons (if (zerop (box-weight box)) 0.01d0 (box-weight box))) +free-fall+)))
+    (format out "    <body name=\"box\">~%      <freejoint name=\"box\"/>~%")
+    (put-mass-centre box mass out)
+    (format out "      <geom name=\"box\" type=\"box\" size=\"~a\" mass=\"~a\" contype=\"1\" ~
+                 conaffinity=\"2\" rgba=\"0.8 0.6 0.4 1\"/>~%    </body>~%"
+            (spaced (metres (mapcar (lambda (size) (/ size 2)) (box-size box))))
+            (number-in-text mass))))
 
 (defun tip-radius (box)
   "Return the radius of the fingertips on BOX, in cm."
@@ -95,11 +116,11 @@ without weight it is 1 g."
             (spaced normal) (number-in-text (* 10 newtons)))
     (format out "      <geom name=\"~a\" type=\"sphere\" size=\"~a\" mass=\"~a\" contype=\"2\" ~
                  conaffinity=\"1\" rgba=\"0.3 0.3 0.3 1\"/>~%    </body>~%"
-            name (number-in-text (/ radius 100d0)) (number-in-text (/ newtons 100)))))
+            name (number-in-text (/ radius 100d0)) (number-in-text (/ newtons 10)))))
 
 (defun mjcf-text (plan &optional line)
   "Return the best grasp of PLAN, of the box in LINE, as a model for MuJoCo.  The key \"hold\" has
-the forces of the fingers that hold the weight with the least friction."
+the forces of the fingers that hold the weight, the weakest as great as can be."
   (let* ((best (plan-best plan)) (box (plan-box plan)) (contacts (candidate-contacts best plan))
          (newtons (or (finger-newtons plan) 1d0)) (limit (number-in-text newtons))
          (forces (pressing contacts box (map 'list #'- (gravity-on box)))))

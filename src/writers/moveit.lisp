@@ -54,15 +54,11 @@ the box: the depth of the deepest contact below the face that the palm is over."
     (put-moveit-pose candidate plan out)
     (format out "grasp_quality: ~a~%" (number-in-text (candidate-quality candidate)))
     (put-motion "pre_grasp_approach" frame approach distance out)
-    (put-motion "post_grasp_retreat" frame (up-on (plan-box plan)) (- +lift+ +clearance+) out)
+    (put-motion "post_grasp_retreat" frame (mapcar #'- (box-down (plan-box plan)))
+                (- +lift+ +clearance+) out)
     (put-motion "post_place_retreat" frame (mapcar #'- approach) distance out)
     (format out "max_contact_force: ~a~%allowed_touch_objects: []~%"
             (number-in-text (or (finger-newtons plan) 0d0)))))
-
-(defun up-on (box)
-  "Return the direction against gravity in the frame of BOX, a unit vector."
-  (declare (ignore box))
-  (list 0d0 0d0 1d0))
 
 (define-writer :moveit "moveit_msgs/Grasp" (name grasps plan reason)
   (with-output-to-string (out)
