@@ -10,7 +10,7 @@
                        (supergrip::canonical-box
                         (if (eq notation :json)
                             (supergrip::json-description
-                             (supergrip-data:read-json
+                             (supergrip::read-json
                               (supergrip-data:string-source
                                (format nil "~a, \"data\": ~a}"
                                        (string-right-trim "}" *json-pencil*) text))))

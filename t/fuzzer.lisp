@@ -64,6 +64,9 @@
                                 "(FACTS)")
                             (pick '("(UNITS MM N)" "(units in Finger)" "(UNITS M)" "(DATA)" "(DATA 1)"
                                     "(DATA (a (\"b\")) 1/2)" "(MASS 1)" "(MASS 1e300)" "(UNITS mm kg)"))
+                            (format nil "(POSE (~a) (~a))" (numbers 3 " ")
+                                    (if (chance 9) (numbers 4 " ") "0 -0.6 0 0.8"))
+                            (format nil "(CENTRE ~a)" (if (chance 9) (numbers 3 " ") "0 0 0"))
                             (format nil "(NAME \"~a\")" (substitute #\_ #\\ (name-text)))))))
 
 (defun json-box ()
@@ -82,6 +85,11 @@
                             (pick '("\"units\": [\"mm\", \"N\"]" "\"units\": [\"in\", \"finger\"]"
                                     "\"units\": \"mm\"" "\"data\": null" "\"data\": [1.50, {\"a\": []}]"
                                     "\"data\": {}" "\"mass\": 1" "\"mass\": 1e300"))
+                            (format nil "\"pose\": {\"position\": [~a], \"orientation\": [~a]}"
+                                    (numbers 3 ", ")
+                                    (if (chance 9) (numbers 4 ", ") "0, -0.6, 0, 0.8"))
+                            (format nil "\"centre\": [~a]"
+                                    (if (chance 9) (numbers 3 ", ") "0, 0, 0"))
                             (format nil "\"name\": \"~a\"" (name-text))))))
 
 (defun good-box (notation number)

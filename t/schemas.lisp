@@ -4,7 +4,7 @@
 (define-suite schemas "What docs/box.schema.json and docs/record.schema.json say is so.")
 
 (defun read-json-text (text)
-  (supergrip-data:read-json (supergrip-data:string-source text)))
+  (supergrip::read-json (supergrip-data:string-source text)))
 
 (defun schema (name)
   (let ((supergrip-data:*record-limit* 100000))
@@ -12,22 +12,22 @@
 
 (defun member-of (object key)
   "Return the value of KEY in OBJECT, and whether it is there."
-  (let ((member (and (supergrip-data:json-object-p object)
-                     (assoc key (supergrip-data:json-object-members object) :test #'string=))))
+  (let ((member (and (supergrip::json-object-p object)
+                     (assoc key (supergrip::json-object-members object) :test #'string=))))
     (values (cdr member) (and member t))))
 
-(defun keys-of (object) (mapcar #'car (supergrip-data:json-object-members object)))
+(defun keys-of (object) (mapcar #'car (supergrip::json-object-members object)))
 
-(defun elements-of (array) (and array (supergrip-data:json-array-elements array)))
+(defun elements-of (array) (and array (supergrip::json-array-elements array)))
 
 (defun json-type (value)
   "Return the types of JSON Schema that VALUE has."
-  (cond ((supergrip-data:json-object-p value) '("object"))
-        ((supergrip-data:json-array-p value) '("array"))
+  (cond ((supergrip::json-object-p value) '("object"))
+        ((supergrip::json-array-p value) '("array"))
         ((stringp value) '("string"))
         ((integerp value) '("number" "integer"))
         ((realp value) '("number"))
-        ((string= (supergrip-data:json-literal-text value) "null") '("null"))
+        ((string= (supergrip::json-literal-text value) "null") '("null"))
         (t '("boolean"))))
 
 (defun referred (schema root)
@@ -55,7 +55,7 @@
   (let ((properties (member-of schema "properties")))
     (append (loop for key in (elements-of (member-of schema "required"))
                   unless (nth-value 1 (member-of value key)) collect (format nil "no ~a" key))
-            (loop for (key . part) in (supergrip-data:json-object-members value)
+            (loop for (key . part) in (supergrip::json-object-members value)
                   for (sub known) = (multiple-value-list (member-of properties key))
                   if known append (loop for fault in (schema-faults part sub root)
                                         collect (format nil "~a: ~a" key fault))
@@ -72,8 +72,8 @@ patterns and conditions."
            (list (format nil "~a is no ~a" value types)))
           ((and enum (not (member value (elements-of enum) :test #'equal))) (list "not in enum"))
           (t (append (number-faults value schema)
-                     (and (supergrip-data:json-array-p value) (array-faults value schema root))
-                     (and (supergrip-data:json-object-p value) (object-faults value schema root))
+                     (and (supergrip::json-array-p value) (array-faults value schema root))
+                     (and (supergrip::json-object-p value) (object-faults value schema root))
                      (loop for key in '("anyOf" "oneOf")
                            for choices = (elements-of (member-of schema key))
                            when (and choices (loop for choice in choices
