@@ -88,7 +88,7 @@ CLOSED-AT tells of a friction whether it does."
 
 (defun load-shares (workspace)
   "Return the shares, six, that the load takes of what the grasp bears alone on each axis."
-  (map 'list #'bounded-ratio (workspace-load workspace) (workspace-wrench workspace)))
+  (map 'list #'bounded-ratio (workspace-load workspace) (workspace-bears workspace)))
 
 (defun total-share (shares)
   "Return the sum of SHARES, at most the greatest double."
@@ -102,7 +102,7 @@ CLOSED-AT tells of a friction whether it does."
     (if (> worst 1)
         (apply #'format nil "it can't hold the weight: the load ~a is ~a, the grasp bears ~a"
                (axis-name axis) (number-texts (bounded (aref (workspace-load workspace) axis))
-                                         (aref (workspace-wrench workspace) axis)))
+                                         (aref (workspace-bears workspace) axis)))
         (format nil "it can't hold the weight: the load takes ~{~a of what the grasp bears ~a~^, ~
                      ~}, together ~a; the axes share the same friction, so the sum may be at most 1"
                 (loop for share in shares for axis from 0
