@@ -204,6 +204,7 @@
                              (:file "proof")
                              (:file "radius")
                              (:file "sure-radius")
+                             (:file "pure-wrench")
                              (:file "entries")
                              (:file "mobility")
                              (:file "exact-statics"))))

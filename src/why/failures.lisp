@@ -90,10 +90,7 @@ CLOSED-AT tells of a friction whether it does."
 
 (defun load-shares (workspace)
   "Return the shares, six, that the load takes of what the grasp bears alone on each axis."
-  (declare (type workspace workspace))
-  (loop for load across (workspace-load workspace)
-        for borne across (workspace-wrench workspace)
-        collect (min (/ load borne) most-positive-double-float)))
+  (map 'list #'bounded-ratio (workspace-load workspace) (workspace-bears workspace)))
 
 (defun total-share (shares)
   "Return the sum of SHARES, doubles, at most the greatest double."
@@ -110,7 +107,7 @@ CLOSED-AT tells of a friction whether it does."
     (if (> worst 1)
         (destructuring-bind (load bears)
             (texts-in-units (axis-measure axis) (bounded (aref (workspace-load workspace) axis))
-                            (aref (workspace-wrench workspace) axis))
+                            (aref (workspace-bears workspace) axis))
           (format nil "it can't hold the weight: the load ~a is ~a, the grasp bears ~a"
                   (axis-name axis) (with-unit load (axis-measure axis)) bears))
         (format nil "it can't hold the weight: the load takes ~{~a of what the grasp bears ~a~^, ~
