@@ -49,6 +49,7 @@
                 :components ((:file "places")
                              (:file "cuts")
                              (:file "search")
+                             (:file "scan")
                              (:file "bound")
                              (:file "refine")))
                (:module "why"
@@ -67,6 +68,7 @@
                              (:file "demand")
                              (:file "choice")
                              (:file "requires")
+                             (:file "refined-fingers")
                              (:file "describe")))
                (:module "verify"
                 :serial t
@@ -255,6 +257,7 @@
                (:file "explain")
                (:file "requires")
                (:file "motions")
+               (:file "rules-and-refining")
                (:file "printer-settings")
                (:file "false-conditions")
                (:file "repl")

@@ -11,8 +11,8 @@ the input; FORMAT is :TRACE, :LISP, :JSON, the name of a writer, or NIL, as the 
 BROKEN is true if one of them was an internal error.  LAST, after an error record, whose box may go
 on, is the line where it ended, or :REST once it did go on.  PLANS holds the plans for a report, the
 latest first, if KEEP is true; MARGIN is as for PLAN.  ALL says how many alternatives a record
-has, NIL for none.  MODELS says where a file of each box goes, if not NIL; LOST is true if one
-could not be written."
+has, NIL for none; REFINE is true if it tells what refining gives.
+MODELS says where a file of each box goes, if not NIL; LOST is true if one could not be written."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
   (index :paper :type keyword)
@@ -24,7 +24,7 @@ could not be written."
   (last nil)
   (keep nil) (plans '() :type list)
   (all nil :type (or null fixnum))
-  (models nil) (lost nil)
+  (refine nil) (models nil) (lost nil)
   (margin nil)
   (after-record nil :type (or null function)))
 
@@ -247,7 +247,8 @@ and whether they are ours."
         (case (batch-format batch)
           (:trace (with-output-to-string (out) (write-transcript plan out)))
           ((:lisp :json)
-           (record-in-units (plan-record plan :line line :all (batch-all batch))
+           (record-in-units (plan-record plan :line line :all (batch-all batch)
+                                              :refine (batch-refine batch))
                             (%box-units (plan-box plan))))
           (t (writer-result batch plan line))))
     (box-error (condition)
@@ -284,6 +285,7 @@ and whether they are ours."
                             collect (visible-text (problem-reason problem)))))
       ((:lisp :json) (error-record problems :name name :line line :index (batch-index batch)
                                             :all (batch-all batch)
+                                            :refine (batch-refine batch)
                                             :carried (description-carried description)))
       (t (let ((writer (find-writer (batch-format batch))))
            (tell-of-none (writer-kind writer) name line reason)
