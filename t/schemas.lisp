@@ -3,12 +3,12 @@
 (in-package :supergrip-test)
 (define-suite schemas "What docs/box.schema.json and docs/record.schema.json say is so.")
 
-(defun read-json-text (text)
+(defun json-of (text)
   (supergrip::read-json (supergrip-data:string-source text)))
 
 (defun schema (name)
   (let ((supergrip-data:*record-limit* 100000))
-    (read-json-text (file-text (format nil "docs/~a.schema.json" name)))))
+    (json-of (file-text (format nil "docs/~a.schema.json" name)))))
 
 (defun member-of (object key)
   "Return the value of KEY in OBJECT, and whether it is there."
@@ -93,18 +93,18 @@ patterns and conditions."
                                       :key #'supergrip::box-key-instead))
                        collect (supergrip::box-key-json row))
                :test #'string=)))
-    (is (null (schema-faults (read-json-text *json-pencil*) schema)))
+    (is (null (schema-faults (json-of *json-pencil*) schema)))
     (loop for (old new) in '(("[12, 2, 2]" "[12, 2]") ("[12, 2, 2]" "[12, 2, 0]") ("0.2" "\"0.2\"")
                              ("\"weight\": 0.2" "\"name\": \"x\"") ("\"u\"" "\"U\""))
-          do (is (schema-faults (read-json-text (changed *json-pencil* old new)) schema)
+          do (is (schema-faults (json-of (changed *json-pencil* old new)) schema)
                  "~a for ~a" new old))
     (dolist (line (lines-of (file-text "examples/boxes.jsonl")))
-      (is (null (schema-faults (read-json-text line) schema))))))
+      (is (null (schema-faults (json-of line) schema))))))
 
 (test records-are-as-their-schema-says
   (let ((schema (schema "record")) (seen '()) (knowledge (force-knowledge)))
     (flet ((check (record)
-             (let ((value (read-json-text (json-line record))))
+             (let ((value (json-of (json-line record))))
                (is (equal '() (schema-faults value schema)))
                (setf seen (union seen (keys-of value) :test #'string=)))))
       (for-random-boxes (box 12 4105)

@@ -7,6 +7,12 @@
 (defconstant +largest+ 1d300 "No number in a file may be farther from zero than this.")
 (defconstant +smallest+ 1d-300 "No number but zero may be closer to zero than this.")
 
+(declaim (inline finite-p))
+(defun finite-p (number)
+  "True if the double NUMBER is neither infinite nor a NaN."
+  (declare (double-float number))
+  (<= (abs number) most-positive-double-float))
+
 (defun digits-end (text start end)
   "Return where the decimal digits of TEXT from START end."
   (declare (type (simple-array character (*)) text) (fixnum start end))

@@ -10,15 +10,13 @@ in them.")
    #:problem #:make-problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text
    #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
-   #:*places* #:form-file #:form-line
-   #:errors-in #:warnings-in #:refused-p #:suggestion
    #:*places* #:form-file #:form-line #:form-place-text
-   #:make-problem #:errors-in #:warnings-in #:suggestion
+   #:errors-in #:warnings-in #:refused-p #:suggestion
    ;; SBCL itself
-   #:backquote-p #:take-from #:give-to #:keep-in #:double-bits #:with-plain-floats #:without-float-traps #:global-name-p
-   #:seeded-state #:define-typed-word #:typed-name
-   #:backquote-p #:take-from #:give-to #:with-plain-floats #:without-float-traps #:global-name-p
-   #:seeded-state #:exact-decimal #:bounded-rational #:+largest+ #:define-typed-word #:typed-name
+   #:backquote-p #:take-from #:give-to #:keep-in #:double-bits #:with-plain-floats
+   #:without-float-traps #:global-name-p #:seeded-state #:define-typed-word #:typed-name
+   ;; numbers
+   #:exact-decimal #:bounded-rational #:+largest+ #:finite-p
    #:system-failure #:system-failure-errno #:read-failure #:write-failure #:+is-directory+
    #:native-path #:native-name #:directory-p #:open-descriptor #:file-text #:room-for
    ;; text
@@ -40,7 +38,3 @@ in them.")
    ;; the tools of readers
    #:next #:fail #:fail-at #:deeper #:start-record #:end-record #:note-place #:skip-mark #:push-token
    #:token-number #:digits-end #:character-description #:source-token #:source-depth #:source-inside))
-   ;; JSON
-   #:read-json #:skip-to-json #:take-character #:skip-json #:json-array #:json-array-p #:make-json-array #:json-array-elements #:make-json-object
-   #:json-object #:json-object-p #:json-object-members #:json-literal #:json-literal-p
-   #:json-literal-text #:json-number #:json-number-p #:json-number-text #:json-number-value))

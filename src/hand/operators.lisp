@@ -22,12 +22,6 @@
 (defconstant +blocked+ 5 "The first of six registers, 1 for a grasp-face whose face is constrained.")
 (defconstant +inputs-end+ 11 "The first register after the inputs.")
 
-(declaim (inline finite-p))
-(defun finite-p (number)
-  "True if the double NUMBER is neither infinite nor a NaN."
-  (declare (double-float number))
-  (<= (abs number) most-positive-double-float))
-
 ;;; The table
 
 (defvar *operators* '() "All that may stand first in a form or a test, as operators, in order.")

@@ -66,13 +66,9 @@
         (refuse-argument "the contacts are too far away, or u or v too large, to compute with"))
       grip)))
 
-(defun finite-p (number)
-  (declare (double-float number))
-  (< (abs number) 1d300))
-
 (defun check-result (number)
   "Return NUMBER, a double or NIL."
-  (if (or (null number) (finite-p number))
+  (if (or (null number) (< (abs number) +largest+))
       number
       (refuse-argument "the answer is no number: places, needs and gravity are too far apart ~
                         in size")))
