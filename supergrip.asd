@@ -273,6 +273,7 @@
                (:file "main")
                (:file "formats")
                (:file "hands")
+               (:file "client")
                (:file "documents")
                (:static-file "formats.py")
                (:static-file "fuzz.lisp")
