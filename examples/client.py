@@ -9,12 +9,14 @@ mm in the frame of the part (z up, origin in its middle), or the reason why it c
 The columns of the CSV are name, x_mm, y_mm, z_mm (the size; z is the height) and mass_kg.  These
 may be left out: u, the friction of fingertip on part; pad_mm, the radius of a fingertip's pad;
 on, the faces that touch something, as "Z2" or "Z2 X1"; accel, in m/s2, what the part is accelerated
-with in every direction while it is carried.
+with in every direction while it is carried; at_x_mm, at_y_mm, yaw_deg, where the middle of the part
+stands on the table and how it is turned there, for an answer in the frame of the table, too.
 """
 
 import argparse
 import csv
 import json
+import math
 import os
 import subprocess
 import sys
@@ -92,15 +94,26 @@ def number(part, column, default=None):
     return default
 
 
+def pose_of(part, height):
+    """Return the pose of PART, HEIGHT mm high, on the table; None if the CSV does not say where it is."""
+    columns = ("at_x_mm", "at_y_mm", "yaw_deg")
+    if not any((part.get(column) or "").strip() for column in columns):
+        return None
+    x, y, yaw = (number(part, column, 0.0) for column in columns)
+    half = math.radians(yaw) / 2
+    return {"position": [x, y, height / 2], "orientation": [0, 0, math.sin(half), math.cos(half)]}
+
+
 def box_of(part):
     """Return the box that PART, a row of the CSV, is.  Raises ValueError."""
     mass = number(part, "mass_kg")
     u = number(part, "u", 0.6)                                     # rubber on cardboard
     force = mass * number(part, "accel", 2.0)
-    return {
+    size = [number(part, axis + "_mm") for axis in "xyz"]
+    box = {
         "name": (part.get("name") or "").strip() or "part",
         "units": ["mm", "N"],
-        "size": [number(part, axis + "_mm") for axis in "xyz"],
+        "size": size,
         "mass": mass,
         "u": u,
         "v": round(2 / 3 * u * number(part, "pad_mm", 8.0), 9),     # a round pad that presses evenly
@@ -108,6 +121,8 @@ def box_of(part):
         "force_needed": [force, force, force, 0, 0, 0],
         "velocity_needed": [0, 0, 0, 0, 0, 0],
     }
+    pose = pose_of(part, size[2])
+    return {**box, "pose": pose} if pose else box
 
 
 def answer_of(record):
@@ -120,6 +135,8 @@ def answer_of(record):
               "opening": hand["opening"], "fits": record.get("fits")}
     if "squeeze" in record:
         answer["squeeze"] = record["squeeze"]
+    if record.get("world"):
+        answer["world"] = {key: record["world"][key] for key in ("position", "orientation")}
     return answer
 
 
