@@ -277,6 +277,7 @@
                (:file "main")
                (:file "formats")
                (:file "hands")
+               (:file "client")
                (:file "documents")
                (:static-file "formats.py")
                (:static-file "simulate.lisp")
