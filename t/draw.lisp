@@ -33,7 +33,8 @@
                     (let ((*package* (find-package :supergrip-user)) (*read-eval* nil))
                       (loop for form = (ignore-errors (read in nil))
                             while form
-                            when (and (consp form) (symbolp (first form)) (string= (first form) "SETQ"))
+                            when (and (consp form) (symbolp (first form)) (string= (first form) "SETQ")
+                                       (string= (second form) "BOX"))
                               return (second (third form)))))
         when box collect (cons (pathname-name file) box)))
 

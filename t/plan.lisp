@@ -21,7 +21,8 @@
                        supergrip:candidate-friction-margin supergrip:candidate-contacts
                        supergrip:candidate-hand supergrip:candidate-world
                        supergrip:candidate-wrench supergrip:candidate-twist
-                       supergrip:candidate-sure supergrip:candidate-fits supergrip:candidate-failure
+                       supergrip:candidate-sure supergrip:candidate-spare
+                       supergrip:candidate-fits supergrip:candidate-failure
                        supergrip:candidate-load supergrip:candidate-force-need
                        supergrip:candidate-velocity-need))
       (funcall reader object plan)
