@@ -314,6 +314,10 @@ print(run.wait() - 66, sum(out), sum(err) + 1)' \"$0\" \"$1\""
     (supergrip-fuzzer:write-spoiled-boxes file :json 1000 12)
     file))
 
+(defun without-data (record)
+  (remf record :data)
+  record)
+
 (test pythons-json-reads-every-record
   (if (zerop (first (shell "python3 -c 'import json'")))
       (destructuring-bind (status output errors)
@@ -332,9 +336,12 @@ cat \"$1\" | \"$0\" --input json --format sexp" (spoiled-json))
               (records (lines-of output)))
           (is (plusp (length lines)))
           (is (= (length lines) (length records)))
-          (is (loop for line in lines
-                    for record in records
-                    always (equal (json-record line) (lisp-record record))))))
+          ;; How data look in either notation is tested in t/data.lisp.
+          (loop for line in lines
+                for record in records
+                unless (equal (without-data (json-record line)) (without-data (lisp-record record)))
+                  collect (list line record) into wrong
+                finally (is (null wrong) "~{~a~%~}" (first wrong)))))
       (skip "no python3")))
 
 (defun run-with (form &rest arguments)
