@@ -49,6 +49,15 @@
       (is (member :open (outcomes :paper)))
       (is (< (count :open (outcomes :exact)) (count :open (outcomes :paper)))))))
 
+(test a-candidate-is-asked-about-in-the-plan-that-is-given
+  "What a plan has certified is said again; in a plan for another box the same candidate is another."
+  (let* ((plan (exact-plan (paper-box))) (best (supergrip:plan-best plan))
+         (other (supergrip:plan (changed-box :u 0.5d0))))
+    (flet ((radius (plan)
+             (multiple-value-list (supergrip:candidate-exact-radius best plan))))
+      (is (equal (radius (pencil-plan)) (radius plan)))
+      (is (< (first (radius other)) (* 0.9d0 (first (radius plan))))))))
+
 (test half-turns-are-told-apart-by-the-weight
   (flet ((tried (index)
            (length (supergrip:plan-candidates
