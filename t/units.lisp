@@ -182,6 +182,18 @@
             do (pushnew (fits (loop for need in '(5 5 10 100 100 100) collect (* factor need))) seen)))
     (is (null (set-exclusive-or seen '(t :false))))))
 
+(test extreme-boxes-in-units-have-records
+  (let ((knowledge (force-knowledge)) (state (sb-ext:seed-random-state 5)))
+    (dotimes (i 40)
+      (let ((box (apply #'box-in (extreme-box state) (random-element (rest *unit-sizes*) state))))
+        (dolist (index '(:paper :exact))
+          (let ((plan (supergrip:plan box :knowledge knowledge :index index)))
+            (is (stringp (json-line (supergrip::record-in-units
+                                     (supergrip::plan-record plan)
+                                     (supergrip::%box-units (supergrip:plan-box plan))))))
+            (when (supergrip:plan-best plan)
+              (finishes (supergrip:demand-on (supergrip:plan-best plan) plan)))))))))
+
 ;;; Margin
 
 (test a-margin-multiplies-weight-and-absolute-needs

@@ -15,15 +15,16 @@ spare.  Without needs the last three are NIL."
     (axis-name (position (reduce #'max shares) shares))))
 
 (defun demand-on (candidate plan)
-  "Return the DEMAND on CANDIDATE of PLAN if the needs of its box are absolute, or NIL."
+  "Return the DEMAND on CANDIDATE of PLAN if the needs of its box are absolute, and not too large to
+compute with, or NIL."
   (when (absolute-units-p (%box-units (plan-box plan)))
     (multiple-value-bind (upper lower motion) (candidate-exact-radius candidate plan)
       (let ((fits (candidate-fits candidate plan)))
-        (if upper
-            (make-demand :fits fits :at-most upper
-                         :surely (min upper (max (candidate-sure candidate plan) (or lower 0d0)))
-                         :weakest (weakest-axis motion (box-force-needed (plan-box plan))))
-            (make-demand :fits fits))))))
+        (cond (upper
+               (make-demand :fits fits :at-most upper
+                            :surely (min upper (max (candidate-sure candidate plan) (or lower 0d0)))
+                            :weakest (weakest-axis motion (box-force-needed (plan-box plan)))))
+              ((every #'zerop (box-force-needed (plan-box plan))) (make-demand :fits fits)))))))
 
 (defun percent-text (radius round)
   "Return RADIUS in per cent, a whole number as ROUND, a function, makes it; near 100 with the
