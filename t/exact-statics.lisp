@@ -320,8 +320,8 @@ certified."
                          :gravity (fifth case) :offset (supergrip:candidate-offset candidate)))
 
 (defun random-candidate-cases (count state &optional (make-box #'random-box))
-  "Return COUNT lists of a case and its sure radius, of possible candidates on random boxes, as MAKE-BOX
-makes them of STATE, with random needs."
+  "Return COUNT lists of a case and its sure radius, of possible candidates on random boxes, as
+MAKE-BOX makes them of STATE, with random needs."
   (let ((cases '()))
     (loop
       (let ((plan (supergrip:plan (funcall make-box state))))

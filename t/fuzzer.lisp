@@ -62,6 +62,9 @@
                             (if (chance 9)
                                 (format nil "(FACTS (WET) (FRAGILE (~a)))" (faces "~a" " "))
                                 "(FACTS)")
+                            (format nil "(POSE (~a) (~a))" (numbers 3 " ")
+                                    (if (chance 9) (numbers 4 " ") "0 -0.6 0 0.8"))
+                            (format nil "(CENTRE ~a)" (if (chance 9) (numbers 3 " ") "0 0 0"))
                             (format nil "(NAME \"~a\")" (substitute #\_ #\\ (name-text)))))))
 
 (defun json-box ()
@@ -77,6 +80,11 @@
                                 (format nil "\"facts\": [[\"WET\"], [\"FRAGILE\", [~a]]]"
                                         (faces "\"~a\"" ", "))
                                 "\"facts\": []")
+                            (format nil "\"pose\": {\"position\": [~a], \"orientation\": [~a]}"
+                                    (numbers 3 ", ")
+                                    (if (chance 9) (numbers 4 ", ") "0, -0.6, 0, 0.8"))
+                            (format nil "\"centre\": [~a]"
+                                    (if (chance 9) (numbers 3 ", ") "0, 0, 0"))
                             (format nil "\"name\": \"~a\"" (name-text))))))
 
 (defun good-box (notation number)

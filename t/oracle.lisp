@@ -366,8 +366,8 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
 
 (defstruct (box (:constructor make-box (size weight u v constrained force velocity facts down
                                              mass-centre)))
-  "A box: three sizes in cm; its task, six needs each of force and of velocity; facts of its own; the
-direction of gravity, a unit vector, and where it acts, from the box centre."
+  "A box: three sizes in cm; its task, six needs each of force and of velocity; facts of its own;
+the direction of gravity, a unit vector, and where it acts, from the box centre."
   size weight u v constrained force velocity facts down mass-centre)
 
 (defun cross (a b)

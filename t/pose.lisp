@@ -45,8 +45,8 @@
          collect (turned-signed unit matching))))
 
 (defun turn-laid (box matching)
-  "Return BOX, which has a pose or is upright, with its frame turned by what MATCHING is: it lies in the
-world as before."
+  "Return BOX, which has a pose or is upright, with its frame turned by what MATCHING is: it lies in
+the world as before."
   (let ((pose (or (box-part box 'pose) '((0 0 0) (0 0 0 1)))) (centre (box-part box 'centre)))
     (append (turn-box (without box 'pose 'centre) matching)
             `((pose ,(first pose)
@@ -85,7 +85,8 @@ world as before."
   (is (null (first-fault #'best-quality-fault (laid-boxes 200 43)))))
 
 (defun turned-about-vertical (box angle)
-  "Return BOX, which has a pose, turned in the world by ANGLE about the vertical, and put elsewhere."
+  "Return BOX, which has a pose, turned in the world by ANGLE about the vertical, and put
+elsewhere."
   (destructuring-bind (position orientation) (box-part box 'pose)
     (append (without box 'pose)
             `((pose ,(mapcar #'1+ position)
@@ -200,8 +201,8 @@ world as before."
   (is (null (first-fault (lambda (box) (dropped (supergrip:plan box))) (laid-boxes 400 50)))))
 
 (defun radii-fault (box)
-  "Return how the radius of the best grasp of BOX changes, when its frame is turned, beyond what is proved
-of it."
+  "Return how the radius of the best grasp of BOX changes, when its frame is turned, beyond what is
+proved of it."
   (flet ((bounds-of (plan)
            (let ((best (supergrip:plan-best plan)))
              (and best (multiple-value-bind (upper lower)
@@ -306,6 +307,33 @@ of it."
                           (nth-value 1 (supergrip:candidate-failure candidate exact))))
                 (supergrip:plan-rejected exact))))))
 
+(test extreme-boxes-that-lie-get-a-verdict-in-words
+  (let ((state (sb-ext:seed-random-state 57)))
+    (is (null (first-fault
+               (lambda (box)
+                 (handler-case
+                     (dolist (index '(:paper :exact))
+                       (let* ((plan (supergrip:plan box :index index))
+                              (record (supergrip::plan-record plan)))
+                         (supergrip:write-transcript plan (make-broadcast-stream))
+                         (error-text (supergrip:box-gravity (supergrip:plan-box plan)))
+                         (supergrip:explain-choice plan)
+                         (unless (getf record :status) (return "no status"))
+                         (dolist (candidate (supergrip:plan-rejected plan))
+                           (supergrip:candidate-failure candidate plan))))
+                   (error (condition) (princ-to-string condition))))
+               (loop repeat 300 collect (laid (extreme-box state) state :pose 90 :centre 90)))))))
+
+(test a-box-keeps-its-centre-of-mass-inside
+  (flet ((smaller-p (centre)
+           (let ((plan (supergrip:plan (list* (list :centre 0 centre 0)
+                                              (changed-box :size 12 4 4)))))
+             (find "the size along Y" (supergrip:requirement-changes
+                                       (supergrip:explain-requirement '(small (y2 y1)) plan))
+                   :key #'supergrip:change-what :test #'string=))))
+    (is (smaller-p 0.1d0))
+    (is (null (smaller-p 1.9d0)) "a box less than FINGER-WIDTH wide could not have it inside")))
+
 ;;; Reading
 
 (defun box-laid (&rest clauses)
@@ -398,7 +426,8 @@ of it."
 ;;; The world
 
 (defun world-fault (box)
-  "Return what is wrong with where the hand of the best grasp of BOX, which has a pose, is in the world."
+  "Return what is wrong with where the hand of the best grasp of BOX, which has a pose, is in the
+world."
   (let* ((plan (supergrip:plan box))
          (record (supergrip::plan-record plan))
          (hand (getf record :hand)) (world (getf record :world)))

@@ -377,8 +377,8 @@ one."
 ;;; How boxes lie
 
 (defun held-places (plan back)
-  "Return the best grasp of PLAN, and where its contacts are after BACK, a function of a place, in an
-order of their own; or NIL."
+  "Return the best grasp of PLAN, and where its contacts are after BACK, a function of a place, in
+an order of their own; or NIL."
   (let ((best (supergrip:plan-best plan)))
     (and best
          (list (supergrip:plan-grasp plan)
@@ -394,8 +394,8 @@ order of their own; or NIL."
           collect (* sign (nth axis place)))))
 
 (defun lying-changes (box)
-  "Return, for each of the 24 turns of the frame of BOX, the change of the best Q, and :MOVED if another
-grasp, or one elsewhere on the box, is then the best."
+  "Return, for each of the 24 turns of the frame of BOX, the change of the best Q, and :MOVED if
+another grasp, or one elsewhere on the box, is then the best."
   (let* ((plan (supergrip:plan box)) (quality (supergrip:plan-quality plan))
          (held (held-places plan #'identity)))
     (loop for matching in *rotations*

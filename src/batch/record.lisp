@@ -54,7 +54,8 @@ tells of the best, from :GRASP to :CONTACTS and from :SURE on."
                    (world-part hand (%box-pose (plan-box plan)))))))
 
 (defun world-part (hand pose)
-  "Return the part of a record that tells where HAND, or none, is in the world, if its box has a POSE."
+  "Return the part of a record that tells where HAND, or none, is in the world, if its box has a
+POSE."
   (and pose (list :world (and hand (hand-in-world hand pose)))))
 
 (defgeneric index-part (index best plan)

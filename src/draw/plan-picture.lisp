@@ -9,7 +9,8 @@
   "Azimuth, elevation, caption and visible axes of the flat views.")
 
 (defun flat-caption (subject index)
-  "Return from where the flat view INDEX sees SUBJECT; or what it sees, if the box does not stand on Z2."
+  "Return from where the flat view INDEX sees SUBJECT; or what it sees, if the box does not stand on
+Z2."
   (if (lies-as-drawn-p subject)
       (third (nth index +flat-views+))
       (format nil "onto ~a" (nth index '("Z1" "Y2" "X1")))))

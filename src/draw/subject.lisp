@@ -9,11 +9,11 @@ the finger from the palm to the position."
   finger face position path)
 
 (defstruct subject
-  "A box to be drawn, and a grasp of it if PALM, the face that the palm is over, is not NIL.
-LOW and HIGH are the corners of what is shown of it; GAP the length, in cm, from which all that is
-not to scale is made.  PALM-LOW and PALM-HIGH are the corners of the palm's plate.  NAMER returns
-the name of a face.  LOAD is the weight as text, or NIL for no weight to be drawn; it acts at MASS in the
-direction DOWN.  LABELLED is NIL if the grasp centre is to be drawn without words."
+  "A box to be drawn, and a grasp of it if PALM, the face that the palm is over, is not NIL.  LOW
+and HIGH are the corners of what is shown of it; GAP the length, in cm, from which all that is not
+to scale is made.  PALM-LOW and PALM-HIGH are the corners of the palm's plate.  NAMER returns the
+name of a face.  LOAD is the weight as text, or NIL for no weight to be drawn; it acts at MASS in
+the direction DOWN.  LABELLED is NIL if the grasp centre is to be drawn without words."
   size low high (gap 0) (blocked '()) (contacts '()) (centre '(0d0 0d0 0d0)) (palm nil)
   palm-low palm-high (namer #'face-name) (load nil) (mass '(0d0 0d0 0d0)) (down '(0d0 0d0 -1d0))
   (labelled t))

@@ -38,7 +38,8 @@ nearly as it was given."
   (coerce (/ (round (* (rational number) (expt 10 digits))) (expt 10 digits)) 'double-float))
 
 (defun checked-pose (row position orientation)
-  "Return the pose of POSITION and ORIENTATION, lists of doubles that the key ROW gives, or complain."
+  "Return the pose of POSITION and ORIENTATION, lists of doubles that the key ROW gives, or
+complain."
   (flet ((text (numbers)
            (value-text *notation* (mapcar #'plain-real numbers))))
     (cond ((unit-quaternion-p orientation)
@@ -102,15 +103,18 @@ centre."
 (defun box-gravity (box)
   "Return the wrench of the weight of BOX about the box centre, a list of six: a force along X Y Z,
 a torque about X Y Z, in finger forces and finger force x cm.  EXACT-RADIUS and HOLDS-P take it."
-  (coerce (gravity-on box) 'list))
+  (let ((gravity (without-float-traps (gravity-on box))))
+    (unless (every #'finite-p gravity)
+      (refuse-argument "the torque of the weight of ~a is out of range" box))
+    (coerce gravity 'list)))
 
 (defun %box-pose (box)
   "Return the POSE of BOX, or NIL."
   (getf (%box-others box) :pose))
 
 (defun box-pose (box)
-  "Return the pose of BOX, as it was given, or NIL: a list of the box centre in the world, in cm, and
-the quaternion (X Y Z W) that turns the box frame there."
+  "Return the pose of BOX, as it was given, or NIL: a list of the box centre in the world, in cm,
+and the quaternion (X Y Z W) that turns the box frame there."
   (shown-value :pose (%box-pose box)))
 
 (defmethod shown-value ((type (eql :pose)) pose)

@@ -153,7 +153,8 @@ no such promise.  Source: SURE-RADIUS."
          (sure-of candidate workspace))))
 
 (defun sure-of (candidate workspace)
-  "Return the sure radius of CANDIDATE, whose figures WORKSPACE holds; NIL if the task needs no force."
+  "Return the sure radius of CANDIDATE, whose figures WORKSPACE holds; NIL if the task needs no
+force."
   (let ((box (workspace-box workspace)))
     (sure (workspace-wrench workspace) (%box-force box) (gravity-on box)
           (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))

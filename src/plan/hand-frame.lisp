@@ -97,8 +97,8 @@ lone contact's normal lies along z, and the fourth holds: x = -N."
             :closing (turned-vector matrix closing)))))
 
 (defun candidate-world (candidate &optional (plan *plan*))
-  "Return where the hand of CANDIDATE, which is possible in PLAN, is in the world: as CANDIDATE-HAND, but
-in the frame in which the POSE of the box is given; :POSITION is that of the grasp centre.  NIL if the
-box has no pose."
+  "Return where the hand of CANDIDATE, which is possible in PLAN, is in the world: as
+CANDIDATE-HAND, but in the frame in which the POSE of the box is given; :POSITION is that of the
+grasp centre.  NIL if the box has no pose."
   (let ((pose (%box-pose (plan-box (need-plan plan)))))
     (and pose (hand-in-world (candidate-hand candidate plan) pose))))

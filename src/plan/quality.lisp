@@ -56,8 +56,8 @@ it: those along the axes grow.  Source: reconstructed, see docs/physics.md."
   (add-turned offset 3 needs out 0))
 
 (defun put-load (box x y z out)
-  "Put into OUT the load of gravity at a grasp centre X Y Z from the centre of BOX: the weight along the
-axes, and the torques that it causes there, all without signs."
+  "Put into OUT the load of gravity at a grasp centre X Y Z from the centre of BOX: the weight along
+the axes, and the torques that it causes there, all without signs."
   (declare (type box box) (double-float x y z) (type six out))
   (let ((weight (%box-weight box)))
     (if (%box-plain box)
@@ -70,7 +70,8 @@ axes, and the torques that it causes there, all without signs."
         (put-turned-load weight (%box-down box) (%box-mass-centre box) x y z out))))
 
 (defun put-turned-load (weight down centre x y z out)
-  "Put into OUT the load of WEIGHT in the direction DOWN, a unit vector, at X Y Z, if it acts at CENTRE."
+  "Put into OUT the load of WEIGHT in the direction DOWN, a unit vector, at X Y Z, if it acts at
+CENTRE."
   (declare (double-float weight x y z) (type three down centre) (type six out))
   (let ((gx (aref down 0)) (gy (aref down 1)) (gz (aref down 2))
         (x (- x (aref centre 0))) (y (- y (aref centre 1))) (z (- z (aref centre 2))))

@@ -32,8 +32,8 @@ if QUALITY and FORCE-RADIUS are no more than upper bounds."
 
 (defstruct (index (:constructor make-index (name same choose)))
   "What grasps are rated by.  NAME is a keyword.  SAME is a function of a grasp and a box: for each
-matching, the set of those that the index does not tell apart.  CHOOSE is a function of a workspace and a log: the
-best candidate, or NIL."
+matching, the set of those that the index does not tell apart.  CHOOSE is a function of a workspace
+and a log: the best candidate, or NIL."
   (name nil :type keyword :read-only t)
   (same nil :type function :read-only t)
   (choose nil :type function :read-only t))
@@ -70,8 +70,8 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
 (define-printing (workspace workspace) "~@[at ~a~]" (workspace-box workspace))
 
 (defun same-by-axes (grasp box)
-  "Return, for each matching of GRASP, the set of those that six numbers, one an axis, do not tell apart
-on BOX.  Where gravity is plain, it does not matter to which side the grasp centre lies."
+  "Return, for each matching of GRASP, the set of those that six numbers, one an axis, do not tell
+apart on BOX.  Where gravity is plain, it does not matter to which side the grasp centre lies."
   (declare (type grasp grasp) (type box box))
   (if (%box-plain box) (grasp-same grasp) (grasp-same-centre grasp)))
 

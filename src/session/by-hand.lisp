@@ -29,8 +29,8 @@ any; NIL allows all."
                       (plan-tries *plan*) :key #'car)))
 
 (defun put-try (grasp set tries box index)
-  "Return TRIES on BOX with GRASP in the matchings SET as the last, and no equal of these by INDEX before
-it."
+  "Return TRIES on BOX with GRASP in the matchings SET as the last, and no equal of these by INDEX
+before it."
   (let ((same (loop with same = (funcall (index-same (index-named index)) grasp box)
                     for matching below (length +matchings+)
                     when (logbitp matching set)

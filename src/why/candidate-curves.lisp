@@ -190,8 +190,8 @@ nothing is known."
     (if (zero-curve-p mass) signed (as-curve (- signed mass)))))
 
 (defun moment-curve (sheet i j)
-  "Return the curve of the torque of a weight of 1 at the grasp centre of SHEET, without sign; I and J
-are the two axes that it is not about."
+  "Return the curve of the torque of a weight of 1 at the grasp centre of SHEET, without sign; I and
+J are the two axes that it is not about."
   (let* ((box (sheet-box sheet))
          (down-i (aref (%box-down box) i)) (down-j (aref (%box-down box) j)))
     (flet ((size (axis)

@@ -18,8 +18,8 @@ steps."
 ;;; How it holds the box
 
 (defun approach-text (face box)
-  "Return where a palm over FACE of BOX comes from: \"above\" up to 30 degrees from there, a side up to
-30 degrees from level."
+  "Return where a palm over FACE of BOX comes from: \"above\" up to 30 degrees from there, a side up
+to 30 degrees from level."
   (let ((up (- (* (face-sign face) (aref (%box-down box) (face-axis face))))))
     (cond ((<= (abs up) 0.5d0) (format nil "the side ~a" (face-name face)))
           (t (format nil "~:[obliquely ~;~]~:[below~;above~]" (> (abs up) (sqrt 0.75d0))

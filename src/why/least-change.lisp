@@ -421,8 +421,8 @@ to four times the greatest dimension of the gripper."
           (t (max 2d0 (* 4 from))))))
 
 (defun line-start (box row index)
-  "Return where the line of the value of the key ROW of BOX at INDEX begins: what is above 0 almost there,
-a size where the box still has its centre of mass inside."
+  "Return where the line of the value of the key ROW of BOX at INDEX begins: what is above 0 almost
+there, a size where the box still has its centre of mass inside."
   (cond ((not (consp (box-key-type row))) 0d0)
         ((eq (box-key-slot row) :size)
          (max (min (value-at box row index) 1d-6) (* 2 (abs (aref (%box-mass-centre box) index)))))
