@@ -27,6 +27,18 @@
     (VELOCITY-NEEDED (1 0.3 0.3 0 0 0.5))
     (NAME "credit card over the edge of a table")))
 
+(defparameter *carton*
+  '((SIZE 7 7 20)
+    (WEIGHT 0.4)
+    (u 0.6)
+    (v 0.2)
+    (CONSTRAINED Y2 Z2)
+    (FORCE-NEEDED (0.3 1 0.6 0.2 0.2 0.2))
+    (VELOCITY-NEEDED (0.3 1 0.5 0.5 0 0.3))
+    (POSE (60 0 90) (0.353553391 -0.353553391 -0.612372436 0.612372436))
+    (CENTRE 0 0 -1)
+    (NAME "carton on a chute")))
+
 (let* ((given (second sb-ext:*posix-argv*))
        (directory (if given
                       (uiop:ensure-directory-pathname (merge-pathnames given (uiop:getcwd)))
@@ -45,6 +57,7 @@
                         (supergrip-draw:draw-plan pencil (file "pencil.svg"))
                         (supergrip-draw:draw-plan (supergrip:plan *credit-card*)
                                                   (file "credit-card.svg"))
+                        (supergrip-draw:draw-plan (supergrip:plan *carton*) (file "carton.svg"))
                         (supergrip-draw:draw-quality pencil (file "quality.svg"))
                         (supergrip-draw:draw-section pencil (file "section.svg"))
                         (supergrip-draw:report pencil (file "pencil.html"))))
