@@ -74,6 +74,8 @@ candidates."
                (is (equal first (reader-answers plan))))))
       (check (supergrip:plan (paper-box)))
       (check (supergrip:try-grasp "PINCH-3-PARALLEL" (paper-box)))
+      (check (supergrip:plan (append *good-box*
+                                     '((:pose (1 2 3) (0.6d0 0 0 0.8d0)) (:centre 1 0 0)))))
       (for-random-boxes (box 100 271828)
         (check (supergrip:plan box))))))
 
