@@ -43,6 +43,8 @@ place in the clause or NIL, what it is, and how far to look: ALL farther, or onl
                                          (t (changed-list part)))))))
       (and (or (some #'plusp (first (box-part new 'force-needed)))
                (some #'plusp (first (box-part new 'velocity-needed))))
+           (every (lambda (mass size) (<= (* 2 (abs mass)) size))
+                  (box-part new 'centre) (box-part new 'size))
            new))))
 
 (defun scan-places (from far end count state)

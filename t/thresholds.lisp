@@ -15,7 +15,8 @@
     (mapcar #'parse-integer (rest sb-ext:*posix-argv*))
   (let ((state (sb-ext:seed-random-state seed)) (faults 0))
     (loop for number from 1 to count
-          for box = (funcall (if (zerop (mod number 4)) #'even-box #'random-box) state)
+          for upright = (funcall (if (zerop (mod number 4)) #'even-box #'random-box) state)
+          for box = (if (zerop (mod number 3)) (laid upright state) upright)
           for supergrip:*gamma* = (random-element '(0 0.3d0 0.5d0 1) state)
           for fault = (scan-fault box places state)
           do (when fault
