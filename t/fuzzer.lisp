@@ -54,6 +54,9 @@
   (format nil (if (chance 10) "(SETQ BOX '(~{~a~^ ~}))" "(~{~a~^ ~})")
           (some-parts (list (format nil "(SIZE ~a)" (numbers 3 " "))
                             (format nil "(WEIGHT ~a)" (numbers 1 " "))
+                            (format nil "(POSE (~a) (~a))" (numbers 3 " ")
+                                    (if (chance 9) (numbers 4 " ") "0 -0.6 0 0.8"))
+                            (format nil "(CENTRE ~a)" (if (chance 9) (numbers 3 " ") "0 0 0"))
                             (format nil "(u ~a)" (numbers 1 " "))
                             (format nil "(v ~a)" (numbers 1 " "))
                             (format nil "(CONSTRAINED ~a)" (faces "~a" " "))
@@ -73,6 +76,11 @@
   (format nil "{~{~a~^, ~}}"
           (some-parts (list (format nil "\"size\": [~a]" (numbers 3 ", "))
                             (format nil "\"weight\": ~a" (number-text))
+                            (format nil "\"pose\": {\"position\": [~a], \"orientation\": [~a]}"
+                                    (numbers 3 ", ")
+                                    (if (chance 9) (numbers 4 ", ") "0, -0.6, 0, 0.8"))
+                            (format nil "\"centre\": [~a]"
+                                    (if (chance 9) (numbers 3 ", ") "0, 0, 0"))
                             (format nil "\"u\": ~a" (number-text))
                             (format nil "\"v\": ~a" (number-text))
                             (format nil "\"constrained\": [~a]" (faces "\"~a\"" ", "))
