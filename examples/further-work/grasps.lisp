@@ -125,3 +125,34 @@
     TWIST FROM-CONTACTS
     CONTACTS ((N1 0 0) (O1 0 0) (A1 0 0))
     PALM A1))
+
+;;;; ---------------------------------------------------------------- the lateral and the wide grasp
+
+;;; Ours: the thumb against the sides of two fingers that lie along the face, one tip deeper than the
+;;; other by FINGER-SPREAD, as a key is held.  Where the hand can only come from one side, this is what
+;;; holds against turning about O.
+(SETQ LATERAL
+  '(USED-SURFACES (N1 N2 A2)
+    CONDITIONS (((DIST '(N1 N2)) < DIST-PINCH) AND
+                ((DIST '(O1 O2)) >= FINGER-SPREAD) AND
+                ((DIST '(A1 A2)) >= FINGER-SPREAD) AND
+                ((DIST '(O1 O2)) > WIDTH-HAND) OR
+                (NOT ((CONSTRAINED O1) AND (CONSTRAINED O2))))
+    REACH (A FROM-FINGERS)
+    CONTACTS ((N1 (/ FINGER-SPREAD 2) (/ FINGER-SPREAD 2))
+              (N1 (- (/ FINGER-SPREAD 2)) (- (/ FINGER-SPREAD 2)))
+              (N2 0 0))
+    PALM A2))
+
+;;; Ours: a fingertip on each of three faces that meet in a corner, no farther from it than the hand
+;;; reaches: so a box of any size can be held.  As for PINCH-3-CORNER, no friction below the root of 1/2
+;;; closes it.
+(SETQ WIDE-CORNER
+  '(USED-SURFACES (N1 O1 A1)
+    CONDITIONS ((u > (SQRT 1/2)) AND
+                ((DIST '(N1 N2)) >= FINGER-WIDTH) AND
+                ((DIST '(O1 O2)) >= FINGER-WIDTH) AND
+                ((DIST '(A1 A2)) >= FINGER-WIDTH))
+    REACH (N REACH-U O REACH-U A REACH-U)
+    CONTACTS ((N1 0 0) (O1 0 0) (A1 0 0))
+    PALM A1))

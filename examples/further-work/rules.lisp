@@ -1,4 +1,4 @@
-;;;; rules.lisp -- the rules that try the grasps of this directory: those of the paper so far.
+;;;; rules.lisp -- the rules that try the grasps of this directory: the paper's fifteen and two.
 ;;;;
 ;;;; This file is data: read by SUPER-GRIP's own reader, checked and turned into functions.
 ;;;; docs/languages.md, "Rules", says what may stand here.  Rules run in the order of this
@@ -6,6 +6,9 @@
 ;;;;
 ;;;; From the box and the gripper come: OPPOSED (s1 s2), SMALL (s1 s2), NARROW (s1 s2),
 ;;;; LARGE (s1 s2), CONSTRAINED (s1) and SLIPPERY.
+;;;;
+;;;; The fifteen are those of the shipped rules.lisp, which try WIDE-CORNER too where all that is left is
+;;;; a corner: GRIP4, GRIP5 and GRIP10.
 ;;;;
 ;;;; Every rule is marked: Printed (in the paper) or Reconstructed (not in the paper; the reason
 ;;;; follows).
@@ -77,6 +80,7 @@
   (IF (OBJECT HAS NO PARALLEL SURFACES)
       (CORNER (s1 s2 s3)))
   (THEN (TRY PINCH-3-CORNER (s1 ? s2 ? s3 ?))
+        (TRY WIDE-CORNER (s1 ? s2 ? s3 ?))
         (TRY PINCH-2-ADJACENT)
         (TRY PINCH-3-ADJACENT)
         (KEEP BEST)))
@@ -131,12 +135,30 @@
       (NOT NARROW (s3 s4)))
   (THEN (TRY PINCH-3-PARALLEL (s1 s2 ? ? s5 s6))))
 
+;;; Ours: the grasp across every parallel pair between two blocked faces: the hand can't be turned so
+;;; that fingers side by side hold against turning about the line through these faces.
+(RULE LATERAL1
+  (IF (PARALLEL (s1 s2))
+      (NOT WIDE (s1 s2))
+      (OPPOSED (s3 s4))
+      (CONSTRAINED (s3))
+      (CONSTRAINED (s4))
+      (NOT NARROW (s3 s4)))
+  (THEN (TRY LATERAL (s1 s2 s3 s4 ? ?))))
+
+;;; Ours: very thin things, free on both sides, are held like a key.
+(RULE LATERAL2
+  (IF (PARALLEL (s1 s2))
+      (SMALL (s1 s2)))
+  (THEN (TRY LATERAL (s1 s2 ? ? ? ?))))
+
 ;;; Reconstructed: all parallel pairs are too wide.  What is left is a corner, which the paper lists
 ;;; among the grasps of this group, and adjacent faces.
 (RULE GRIP10
   (IF (WIDE (s1 s2))
       (OBJECT HAS NO OTHER PARALLEL SURFACES))
   (THEN (TRY PINCH-3-CORNER (s1 ? ? ? ? ?))
+        (TRY WIDE-CORNER (s1 ? ? ? ? ?))
         (TRY PINCH-2-ADJACENT)
         (TRY PINCH-3-ADJACENT)))
 

@@ -44,12 +44,30 @@ what varies, then the results, if there are any."
                    hash (logxor hash (ash hash -29))))
     (ldb (byte +bits-kept+ 20) hash)))
 
+(declaim (inline neighbour-place))
+(defun neighbour-place (place) (logxor place 1))
+
 (declaim (inline same-numbers-p))
 (defun same-numbers-p (entry registers from)
   (declare (type numbers entry) (type registers registers) (type register-vector from))
   (loop for register across from
         for place of-type fixnum from 0
         always (= (aref entry place) (aref registers register))))
+
+(declaim (inline entry-at))
+(defun entry-at (kept place registers from)
+  "Return the entry at PLACE of KEPT if it is that of the numbers in the registers FROM, or NIL."
+  (declare (type simple-vector kept))
+  (let ((entry (svref kept place)))
+    (and entry (same-numbers-p entry registers from) entry)))
+
+(defun keep-entry (kept place entry)
+  "Keep ENTRY at PLACE of KEPT; what was there goes to the place beside it, so that a plan may ask for two
+results of one place again and again.  Return ENTRY."
+  (declare (type simple-vector kept))
+  (let ((old (svref kept place)))
+    (when old (keep-in kept (neighbour-place place) old))
+    (keep-in kept place entry)))
 
 (defun new-entry (computation registers from)
   "Return the entry of COMPUTATION for the numbers in the registers FROM, computed now."
@@ -73,10 +91,9 @@ those from TO, and calls NEXT.  It returns NIL if they have no value."
     (lambda (registers)
       (declare (type registers registers) (optimize speed))
       (let* ((place (place-kept registers from))
-             (known (svref kept place))
-             (entry (if (and known (same-numbers-p known registers from))
-                        known
-                        (keep-in kept place (new-entry computation registers from)))))
+             (entry (or (entry-at kept place registers from)
+                        (entry-at kept (neighbour-place place) registers from)
+                        (keep-entry kept place (new-entry computation registers from)))))
         (declare (type numbers entry))
         (when (> (length entry) width)
           (dotimes (i count)
