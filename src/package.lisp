@@ -74,7 +74,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:candidate-force-radius #:candidate-velocity-radius
    #:candidate-force-axis #:candidate-velocity-axis
    #:candidate-offset #:candidate-contacts #:candidate-approach #:candidate-hand #:candidate-world
-   #:candidate-wrench #:candidate-twist #:candidate-sure #:candidate-failure
+   #:candidate-wrench #:candidate-spare #:candidate-twist #:candidate-sure #:candidate-failure
    #:candidate-palm #:candidate-load #:candidate-force-need #:candidate-velocity-need
    #:candidate-bound-p #:candidate-exact-radius #:candidate-squeeze #:candidate-friction-margin
    #:candidate-powers #:motion-text

@@ -319,14 +319,60 @@ coordinates that the turn changes are always 0."
         (loop for (nil value) in clauses always (kept-centre-p kind value)))
       (:computed () nil))))
 
-(defun same-matchings (used fingers turns)
-  "Return, for each matching, the set of those of TURNS (see +TURNS+) of it that are the same grasp."
+(defun computed-p (node) (eq (node-kind node) :computed))
+
+(defun contact-points (contacts &optional mirrors)
+  "Return where CONTACTS are, lists of a grasp face and two lengths, after mirrors along the axes MIRRORS.
+A length that varies is equal to itself alone, and not to its mirror image."
+  (flet ((place-of (node mirrored)
+           (cond ((not (constant-p node)) (list (and mirrored t) node))
+                 (mirrored (- 0d0 (constant-value node)))
+                 (t (+ 0d0 (constant-value node))))))
+    (loop for (face . places) in contacts
+          for axis = (floor face 2)
+          collect (cons (if (member axis mirrors) (logxor face 1) face)
+                        (loop for other in (remove axis '(0 1 2))
+                              for node in places
+                              collect (place-of node (member other mirrors)))))))
+
+(defun mirrored-p (contacts mirrors)
+  "True if mirrors along the axes MIRRORS surely leave CONTACTS what they are."
+  (null (set-exclusive-or (contact-points contacts) (contact-points contacts mirrors)
+                          :test #'equalp)))
+
+(defun in-the-middle-p (contact)
+  "True if CONTACT is surely in the middle of its face, but for the offset."
+  (every (lambda (node) (and (constant-p node) (zerop (constant-value node)))) (rest contact)))
+
+(defun same-anyhow-p (draft kind)
+  "True if a turn of KIND leaves the grasp of DRAFT the same wherever gravity points.  Six entries of
+WRENCH are good both ways, twelve are not: the contacts must come where others were.  A third-turn
+moves the palm, which a TWIST that is computed tells apart."
+  (let ((contacts (draft-contacts draft)))
+    (and (or (not (computed-p (draft-wrench draft)))
+             (if (eq kind :half-turn)
+                 (mirrored-p contacts '(0 1))
+                 (every #'in-the-middle-p contacts)))
+         (or (eq kind :half-turn) (not (computed-p (draft-twist draft)))))))
+
+(defun same-upright-p (draft kind matching)
+  "True if a turn of KIND leaves the grasp of DRAFT in MATCHING the same where gravity points along Z.
+A half-turn about Z does; so does one that exchanges up and down if the contacts are mirror images."
+  (let ((vertical (position 2 (matching-axes matching) :end 3)))
+    (or (same-anyhow-p draft kind)
+        (and (eq kind :half-turn)
+             (or (= vertical 2) (mirrored-p (draft-contacts draft) (list vertical)))))))
+
+(defun same-matchings (used fingers same-p)
+  "Return, for each matching, the set of those turns of it (see +TURNS+) that are the same grasp: as far
+as its faces show, and as SAME-P, a function of the kind of a turn and a matching, says."
   (let ((sets (make-array 24 :element-type '(unsigned-byte 24))))
     (loop for matching across +matchings+
           do (setf (aref sets (matching-index matching))
                    (reduce #'logior
-                           (loop for (kind turn) in turns
-                                 when (allowed-turn-p kind turn used fingers)
+                           (loop for (kind turn) in +turns+
+                                 when (and (allowed-turn-p kind turn used fingers)
+                                           (funcall same-p kind matching))
                                    collect (ash 1 (matching-index (turned matching turn))))
                            :initial-value (ash 1 (matching-index matching)))))
     sets))
@@ -373,11 +419,13 @@ has one of them."
      :wrench (six-program (draft-wrench draft) layout)
      :twist (six-program (draft-twist draft) layout)
      :usable (usable-matchings (draft-used draft))
-     :same (same-matchings (draft-used draft) fingers +turns+)
+     :same (same-matchings (draft-used draft) fingers
+                           (lambda (kind matching) (same-upright-p draft kind matching)))
      :same-centre (same-matchings (draft-used draft) fingers
-                                  (remove-if-not (lambda (turn)
-                                                   (kept-centre-p (first turn) (draft-offset draft)))
-                                                 +turns+)))))
+                                  (lambda (kind matching)
+                                    (declare (ignore matching))
+                                    (and (kept-centre-p kind (draft-offset draft))
+                                         (same-anyhow-p draft kind)))))))
 
 ;;; The file
 

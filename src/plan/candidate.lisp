@@ -189,6 +189,17 @@ X Y Z."
               (%candidate-z candidate) load)
     (coerce load 'list)))
 
+(defun candidate-spare (candidate &optional (plan *plan*))
+  "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, both ways, beside gravity's load: six
+numbers.  NIL where it failed before."
+  (replayed-six (lambda (workspace)
+                  (put-load (workspace-box workspace) (%candidate-x candidate)
+                            (%candidate-y candidate) (%candidate-z candidate)
+                            (workspace-load workspace))
+                  (bearing-sides candidate workspace)
+                  (put-spare workspace))
+                candidate plan))
+
 ;;; The best one of a plan
 
 (defun plan-grasp (&optional (plan (last-plan)))

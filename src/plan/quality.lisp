@@ -81,6 +81,20 @@ axes, and the torques that it causes there, all without signs."
           (aref out 4) (* weight (abs (- (* z gx) (* x gz))))
           (aref out 5) (* weight (abs (- (* x gy) (* y gx)))))))
 
+(defun put-borne (box x y z out)
+  "Put into OUT what contacts exert about X Y Z, from the centre of BOX, as they bear its weight: the
+opposite of gravity's wrench there, with signs."
+  (declare (type box box) (double-float x y z) (type six out))
+  (let* ((weight (%box-weight box)) (down (%box-down box)) (centre (%box-mass-centre box))
+         (gx (* weight (aref down 0))) (gy (* weight (aref down 1))) (gz (* weight (aref down 2)))
+         (x (- x (aref centre 0))) (y (- y (aref centre 1))) (z (- z (aref centre 2))))
+    (setf (aref out 0) (- gx)
+          (aref out 1) (- gy)
+          (aref out 2) (- gz)
+          (aref out 3) (- (* y gz) (* z gy))
+          (aref out 4) (- (* z gx) (* x gz))
+          (aref out 5) (- (* x gy) (* y gx)))))
+
 (defun quality-index (gamma velocity-radius velocity-limit force-radius force-limit)
   "Return Q = GAMMA u_t + (1 - GAMMA) u_w; where a task needs only forces or only velocities (its
 other limit is -1), the radius of that kind alone.  Source: the paper, Description."

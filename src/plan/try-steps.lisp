@@ -54,7 +54,8 @@ best candidate, or NIL."
   "All that trying grasps on one box needs and leaves: the registers, what was tried of each grasp
 (a set of matchings), and the BEST candidate.  The arrays are the current candidate's, in the box
 frame: WRENCH and TWIST what the grasp can do, AHEAD and BEHIND what it exerts along and against the
-axes if its WRENCH says so, LOAD what gravity asks, SPARE what it leaves of
+axes if its WRENCH says so, then BEARING what it exerts against the load and COUNTER the other way; BEARS is that of them, or
+WRENCH, which bears the load; LOAD what gravity asks, SPARE what it leaves of
 WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   (box nil :type (or null box)) (gamma 0.5d0 :type double-float)
   (index (first *indices*) :type index) (steps '() :type list)
@@ -65,6 +66,8 @@ WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   (offset (make-three) :type three)
   (wrench (make-six) :type six) (twist (make-six) :type six)
   (ahead (make-six) :type six) (behind (make-six) :type six)
+  (bearing (make-six) :type six) (counter (make-six) :type six)
+  (bears (make-six) :type six)
   (load (make-six) :type six) (spare (make-six) :type six)
   (force-needs (make-six) :type six) (velocity-needs (make-six) :type six))
 
@@ -245,15 +248,22 @@ workspace: AHEAD and BEHIND of the axes of the box, and the lesser of both.  NIL
                    (aref wrench axis) (min along against))
              (unless (> (aref wrench axis) 0d0) (return nil)))))))
 
+(declaim (inline both-ways-p))
+(defun both-ways-p (candidate)
+  "True if the WRENCH of CANDIDATE has an entry for each way along an axis: twelve."
+  (declare (type candidate candidate))
+  (let ((program (grasp-wrench (%candidate-grasp candidate))))
+    (declare (type program program))
+    (/= 6 (length (program-results program)))))
+
 (declaim (inline turn-wrench))
 (defun turn-wrench (candidate workspace)
   "Put what CANDIDATE exerts into the workspace.  NIL if there is an axis along which it exerts nothing."
   (declare (type candidate candidate) (type workspace workspace))
   (let ((program (grasp-wrench (%candidate-grasp candidate))))
-    (declare (type program program))
-    (if (= 6 (length (program-results program)))
-        (turn-entries program candidate workspace (workspace-wrench workspace) 0d0)
-        (turn-both-ways program candidate workspace))))
+    (if (both-ways-p candidate)
+        (turn-both-ways program candidate workspace)
+        (turn-entries program candidate workspace (workspace-wrench workspace) 0d0))))
 
 (define-step (closure :paper) :open (candidate workspace)
   (let ((grasp (%candidate-grasp candidate)))
@@ -275,27 +285,69 @@ workspace: AHEAD and BEHIND of the axes of the box, and the lesser of both.  NIL
     (dotimes (i 3)
       (setf (aref offset i) (abs (aref offset i))))))
 
+(defun choose-sides (candidate workspace)
+  "Put what CANDIDATE exerts against the load of its axes into BEARING, and the other way into COUNTER.
+Return BEARING."
+  (let ((bearing (workspace-bearing workspace)) (counter (workspace-counter workspace))
+        (borne (workspace-spare workspace)))
+    (put-borne (workspace-box workspace) (%candidate-x candidate) (%candidate-y candidate)
+               (%candidate-z candidate) borne)
+    (dotimes (axis 6 bearing)
+      (let ((ahead (aref (workspace-ahead workspace) axis))
+            (behind (aref (workspace-behind workspace) axis)))
+        (when (minusp (aref borne axis))
+          (rotatef ahead behind))
+        (setf (aref bearing axis) ahead
+              (aref counter axis) behind)))))
+
+(declaim (inline bearing-sides))
+(defun bearing-sides (candidate workspace)
+  "Return what CANDIDATE exerts against the load of its axes, and let the workspace know it."
+  (setf (workspace-bears workspace)
+        (if (both-ways-p candidate)
+            (choose-sides candidate workspace)
+            (workspace-wrench workspace))))
+
 (define-step (lifting :paper) :lifting (candidate workspace)
   ;; Each axis may be loaded by a share of what the grasp bears there alone; the shares may not
   ;; exceed 1 together, since the axes use the same friction.  Sound: the six capacities, both ways,
   ;; span a cross-polytope of wrenches that the contacts can exert.
   (let ((load (workspace-load workspace))
-        (wrench (workspace-wrench workspace))
         (shares 0d0))
     (declare (double-float shares))
     (turn-centre workspace (%candidate-matching candidate) candidate)
     (put-load (workspace-box workspace) (%candidate-x candidate) (%candidate-y candidate)
               (%candidate-z candidate) load)
-    (dotimes (axis 6 (<= shares 1d0))
-      (incf shares (/ (aref load axis) (aref wrench axis))))))
+    (let ((bearing (bearing-sides candidate workspace)))
+      (declare (type six bearing))
+      (dotimes (axis 6 (<= shares 1d0))
+        (incf shares (/ (aref load axis) (aref bearing axis)))))))
+
+(defun put-spare-both-ways (workspace)
+  "Put what BEARING leaves beside the load into SPARE, or COUNTER with gravity's help if that is less."
+  (declare (type workspace workspace))
+  (let ((spare (workspace-spare workspace)) (load (workspace-load workspace))
+        (bearing (workspace-bearing workspace)) (counter (workspace-counter workspace)))
+    (dotimes (axis 6)
+      (setf (aref spare axis) (min (- (aref bearing axis) (aref load axis))
+                                   (+ (aref counter axis) (aref load axis)))))))
+
+(declaim (inline put-spare))
+(defun put-spare (workspace)
+  "Put what the candidate exerts beside the load, both ways, into SPARE, and return it."
+  (declare (type workspace workspace))
+  (let ((spare (workspace-spare workspace)) (load (workspace-load workspace))
+        (wrench (workspace-wrench workspace)))
+    (if (eq wrench (workspace-bears workspace))
+        (dotimes (axis 6)
+          (setf (aref spare axis) (- (aref wrench axis) (aref load axis))))
+        (put-spare-both-ways workspace))
+    spare))
 
 (define-step (quality :paper) :open (candidate workspace)
   (let ((box (workspace-box workspace))
         (offset (workspace-offset workspace))
-        (spare (workspace-spare workspace)))
-    (dotimes (axis 6)
-      (setf (aref spare axis)
-            (- (aref (workspace-wrench workspace) axis) (aref (workspace-load workspace) axis))))
+        (spare (put-spare workspace)))
     (shift-force (%box-force box) offset (workspace-force-needs workspace))
     (shift-velocity (%box-velocity box) offset (workspace-velocity-needs workspace))
     (multiple-value-bind (force-radius force-limit)

@@ -51,7 +51,7 @@ says whether it is possible in all of the interval at hand, where Q is from LEAS
   "A candidate whose curves are being made: those that its forms start from, INPUTS, and what they
 and the steps give; in the box frame but for CENTRE."
   line grasp matching inputs forms (centre '()) (offset (make-array 3)) (wrench (make-array 6))
-  (twist (make-array 6)) (load (make-array 6)) quality)
+  (twist (make-array 6)) (load (make-array 6)) (spare (make-array 6)) (sides '()) quality)
 
 (defvar *step-curves* '() "An alist from the names of steps of TRY to functions of a sheet.")
 
@@ -150,13 +150,33 @@ nothing is known."
 
 (define-step-curve closure (sheet)
   (let ((axes (matching-axes (sheet-matching sheet))) (draft (sheet-draft sheet)))
-    (flet ((turn (node out least)
-             (loop for entry in (sheet-six sheet node)
+    (flet ((turn (entries out least)
+             (loop for entry in entries
                    for axis across axes
                    do (setf (svref out axis) entry)
                    collect (as-curve (> entry least)))))
-      (all-of (append (turn (draft-wrench draft) (sheet-wrench sheet) (constant-curve 0d0))
-                      (turn (draft-twist draft) (sheet-twist sheet) (constant-curve -1d-300)))))))
+      (all-of (append (turn (wrench-curves sheet) (sheet-wrench sheet) (constant-curve 0d0))
+                      (turn (sheet-six sheet (draft-twist draft)) (sheet-twist sheet)
+                            (constant-curve -1d-300)))))))
+
+(defun wrench-curves (sheet)
+  "Return what the grasp of SHEET exerts, six curves.  If it has twelve entries, put them, those along
+the axes of the box and those against them, into SHEET, and return the lesser of both."
+  (let* ((entries (sheet-six sheet (draft-wrench (sheet-draft sheet))))
+         (others (nthcdr 6 entries)) (matching (sheet-matching sheet)))
+    (if (null others)
+        entries
+        (let ((ahead (make-array 6)) (behind (make-array 6)))
+          (loop for along in entries
+                for against in others
+                for axis across (matching-axes matching)
+                for i from 0
+                for turned = (minusp (aref (matching-signs matching) (mod i 3)))
+                do (setf (svref ahead axis) (if turned against along)
+                         (svref behind axis) (if turned along against)))
+          (setf (sheet-sides sheet) (list ahead behind))
+          (loop for along in entries for against in others
+                collect (as-curve (min along against)))))))
 
 (define-step-curve lifting (sheet)
   (let ((offset (sheet-offset sheet)))
@@ -165,10 +185,46 @@ nothing is known."
           repeat 3
           do (setf (svref offset axis) (as-curve (abs centre))))
     (replace (sheet-load sheet) (load-curves sheet))
+    (replace (sheet-spare sheet) (spare-curves sheet))
     (let ((shares (sum-curve (loop for load across (sheet-load sheet)
-                                   for has across (sheet-wrench sheet)
+                                   for has in (bearing-curves sheet #'identity)
                                    unless (zero-curve-p load) collect (as-curve (/ load has))))))
       (as-curve (<= shares 1d0)))))
+
+(defun bearing-curves (sheet side)
+  "Return the six curves of what bears the load of SHEET; or of the other way, if SIDE is NOT, not
+IDENTITY."
+  (if (null (sheet-sides sheet))
+      (coerce (sheet-wrench sheet) 'list)
+      (destructuring-bind (ahead behind) (sheet-sides sheet)
+        (loop for axis below 6
+              for borne in (borne-curves sheet)
+              for minus = (as-curve (< borne 0d0))
+              for a = (svref ahead axis)
+              for b = (svref behind axis)
+              collect (if (funcall side t) (as-curve (if minus b a)) (as-curve (if minus a b)))))))
+
+(defun spare-curves (sheet)
+  "Return the six curves of what the grasp of SHEET exerts beside the load: as PUT-SPARE."
+  (loop for has in (bearing-curves sheet #'identity)
+        for other in (bearing-curves sheet #'not)
+        for load across (sheet-load sheet)
+        collect (if (sheet-sides sheet)
+                    (as-curve (min (- has load) (+ other load)))
+                    (as-curve (- has load)))))
+
+(defun borne-curves (sheet)
+  "Return the six curves whose signs say which way the load of SHEET is borne: as PUT-BORNE, for a weight
+of 1."
+  (let ((down (%box-down (sheet-box sheet))))
+    (flet ((down-curve (axis) (constant-curve (aref down axis))))
+      (append (loop for axis below 3 collect (constant-curve (- (aref down axis))))
+              (loop for (i j) in '((1 2) (2 0) (0 1))
+                    for a = (arm-curve sheet i)
+                    for b = (arm-curve sheet j)
+                    for down-i = (down-curve i)
+                    for down-j = (down-curve j)
+                    collect (as-curve (- (* a down-j) (* b down-i))))))))
 
 (defun zero-curve-p (curve) (and (fixed-p curve) (zerop (curve-least curve))))
 
@@ -240,11 +296,9 @@ one is needed at all."
 (define-step-curve quality (sheet)
   (let* ((line (sheet-line sheet)) (offset (sheet-offset sheet))
          (gamma (plan-gamma (line-plan line)))
-         (one (constant-curve gamma)) (rest (constant-curve (- 1d0 gamma)))
-         (spare (map 'simple-vector (lambda (has load) (as-curve (- has load)))
-                     (sheet-wrench sheet) (sheet-load sheet))))
+         (one (constant-curve gamma)) (rest (constant-curve (- 1d0 gamma))))
     (multiple-value-bind (force force-p)
-        (radius-curve (shifted-curves (needs-curves line :force) 0 3 offset) spare)
+        (radius-curve (shifted-curves (needs-curves line :force) 0 3 offset) (sheet-spare sheet))
       (multiple-value-bind (velocity velocity-p)
           (radius-curve (shifted-curves (needs-curves line :velocity) 3 0 offset)
                         (sheet-twist sheet))

@@ -90,7 +90,7 @@ CLOSED-AT tells of a friction whether it does."
   "Return the shares, six, that the load takes of what the grasp bears alone on each axis."
   (declare (type workspace workspace))
   (loop for load across (workspace-load workspace)
-        for borne across (workspace-wrench workspace)
+        for borne across (workspace-bears workspace)
         collect (min (/ load borne) most-positive-double-float)))
 
 (defun total-share (shares)
@@ -108,7 +108,7 @@ CLOSED-AT tells of a friction whether it does."
     (if (> worst 1)
         (apply #'format nil "it can't hold the weight: the load ~a is ~a, the grasp bears ~a"
                (axis-name axis) (number-texts (bounded (aref (workspace-load workspace) axis))
-                                         (aref (workspace-wrench workspace) axis)))
+                                         (aref (workspace-bears workspace) axis)))
         (format nil "it can't hold the weight: the load takes ~{~a of what the grasp bears ~a~^, ~
                      ~}, together ~a; the axes share the same friction, so the sum may be at most 1"
                 (loop for share in shares for axis from 0
