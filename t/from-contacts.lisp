@@ -122,3 +122,50 @@
     (is (search "(POSIT (- (/ (DIST '(O1 O2)) 2) REACH-C))" text))
     (is (search "WRENCH is what the contacts exert" text))
     (is (search "TWIST is how well" text))))
+
+;;; The way of gravity counts
+
+(defun row-box (weight &rest others)
+  "Return a box of WEIGHT in the air, with OTHERS as clauses."
+  (supergrip:parse-box `((size 6 4 3) (weight ,weight) (u 0.5) (v 0.2) (constrained)
+                         (force-needed (1 1 1 0 0 0)) (velocity-needed (0 0 0 0 0 0)) ,@others)))
+
+(defun possible-n1-faces (knowledge box)
+  "Return the faces on which PINCH-3-PARALLEL of KNOWLEDGE may have two fingers on BOX."
+  (sort (remove-duplicates
+         (loop for candidate in (supergrip:plan-possible
+                                 (supergrip:try-grasp "PINCH-3-PARALLEL" box :knowledge knowledge))
+               collect (first (supergrip:candidate-matching candidate)))
+         :test #'string=)
+        #'string<))
+
+(test two-fingers-below-carry-more-than-one
+  ;; Alone across the weight, friction bears 1 finger force; on the faces above and below, a pair of
+  ;; fingers bears 2 and the thumb 1.
+  (let ((knowledge (further-work)))
+    (is (equal '() (possible-n1-faces supergrip:*knowledge* (row-box 1.5d0))))
+    (is (equal '("Z2") (possible-n1-faces knowledge (row-box 1.5d0))))
+    ;; Upside down, and on its side.
+    (is (equal '("Z1") (possible-n1-faces knowledge (row-box 1.5d0 '(pose (0 0 0) (1 0 0 0))))))
+    (let ((root (sqrt 0.5d0)))
+      (is (equal '("Y2") (possible-n1-faces knowledge
+                                            (row-box 1.5d0 `(pose (0 0 0) (,root 0 0 ,root)))))))))
+
+(test gravity-helps-the-other-way
+  ;; Held from below and above, with 1.5 of weight: .5 is left upward; downward 1 and the weight.
+  (let* ((knowledge (further-work))
+         (plan (supergrip:try-grasp "PINCH-3-PARALLEL" (row-box 1.5d0) :knowledge knowledge))
+         (candidate (first (supergrip:plan-possible plan))))
+    (is (nearly-p 1 (third (supergrip:candidate-wrench candidate plan))))
+    (is (nearly-p 0.5 (third (supergrip:candidate-spare candidate plan))))
+    (is (nearly-p 0.5 (supergrip:candidate-force-radius candidate)))))
+
+(test grasps-that-gravity-tells-apart-are-both-tried
+  (flet ((tried (knowledge &rest others)
+           (length (supergrip:plan-candidates
+                    (supergrip:try-grasp "PINCH-3-PARALLEL" (apply #'row-box 0.1d0 others)
+                                         :knowledge knowledge)))))
+    ;; Where N is vertical, which of 24 matchings is 8, it matters on which face two fingers are.
+    (is (= 12 (tried supergrip:*knowledge*)))
+    (is (= 16 (tried (further-work))))
+    (is (= 24 (tried (further-work) '(pose (0 0 0) (0.6d0 0 0 0.8d0)))))))
