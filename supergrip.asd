@@ -200,6 +200,7 @@
                              (:file "proof")
                              (:file "radius")
                              (:file "sure-radius")
+                             (:file "pure-wrench")
                              (:file "entries")
                              (:file "mobility")
                              (:file "exact-statics"))))

@@ -100,8 +100,8 @@
                          for b in (both-ways new)
                          for axis from 0
                          do (is (if (exact-p name axis)
-                                    (< (abs (- a b)) (* 5d-5 a))
-                                    (<= a (* b (+ 1 5d-5))))
+                                    (< (abs (- a b)) (* 1d-6 a))
+                                    (<= a (* b (+ 1 1d-9))))
                                 "~a, ~a, u ~a, v ~a: entry ~d: ~a, shipped ~a" name size u v axis b a)))))
     (is (> compared 30))))
 

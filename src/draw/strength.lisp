@@ -14,7 +14,7 @@ index of its forces."
 (defun force-rows (candidate plan)
   "Return (have need) on each axis for forces: gravity's load taken off, the offset's effect added."
   (mapcar #'list
-          (mapcar #'- (candidate-wrench candidate plan) (candidate-load candidate plan))
+          (candidate-spare candidate plan)
           (candidate-force-need candidate plan)))
 
 (defun paper-radius (candidate plan)

@@ -3,7 +3,7 @@
 (in-package :supergrip)
 
 ;;; Inline, so that the numbers that they take and give are not boxed.
-(declaim (inline embedded-radius put-load quality-index shift-force shift-velocity))
+(declaim (inline embedded-radius put-load put-borne quality-index shift-force shift-velocity))
 
 (defun embedded-radius (need have)
   "Return the radius of the largest NEED ellipsoid inside HAVE, and the axis that limits it.
