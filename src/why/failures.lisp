@@ -90,7 +90,10 @@ CLOSED-AT tells of a friction whether it does."
 
 (defun load-shares (workspace)
   "Return the shares, six, that the load takes of what the grasp bears alone on each axis."
-  (map 'list #'bounded-ratio (workspace-load workspace) (workspace-bears workspace)))
+  (declare (type workspace workspace))
+  (loop for load across (workspace-load workspace)
+        for borne across (workspace-bears workspace)
+        collect (min (/ load borne) most-positive-double-float)))
 
 (defun total-share (shares)
   "Return the sum of SHARES, doubles, at most the greatest double."
