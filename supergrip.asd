@@ -47,6 +47,7 @@
                 :components ((:file "places")
                              (:file "cuts")
                              (:file "search")
+                             (:file "scan")
                              (:file "bound")
                              (:file "refine")))
                (:module "why"

@@ -167,7 +167,8 @@ radius; or those two.  GOAL is the radius that is worth asking for."
     (when (and middle (> (cuts-radius refining middle) goal))
       (let ((radius (radius-at refining middle value)))
         (when (> radius value)
-          (multiple-value-setq (placement value) (climb refining middle radius)))))
+          (multiple-value-bind (other radius) (climb-surely refining middle radius)
+            (when (> radius value) (setf placement other value radius))))))
     (values placement value)))
 
 (defun branch-and-bound (refining placement value gap most-regions)

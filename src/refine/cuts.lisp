@@ -93,9 +93,10 @@ GRIP-RADIUS does; the worst motion becomes a cut."
     (values upper lower)))
 
 (defun radius-at (refining placement least)
-  "Return the exact radius of REFINING at PLACEMENT, within 1 %; or, if it is not above LEAST, no more
-than a number between the two."
-  (let ((upper (ask refining placement 0.01d0 1d-3 0)))
-    (if (> upper least)
-        (values (ask refining placement 0.01d0 1d-3 3000))
-        upper)))
+  "Return the exact radius of REFINING at PLACEMENT, an upper value, mostly within 1 %; or, if it is not
+above LEAST, no more than a number between the two."
+  (flet ((look (budget)
+           (ask refining placement 0.01d0 1d-3 budget)
+           (cuts-radius refining placement)))
+    (let ((upper (look 0)))
+      (if (> upper least) (look 3000) upper))))

@@ -33,18 +33,22 @@ plan, LOW and HIGH its limits, BETWEEN a list of LIMIT-BETWEENs."
         (let ((way (- (aref placement (+ (* 3 one) axis)) (aref placement (+ (* 3 two) axis)))))
           (incf sum (* way way)))))))
 
+(defun within-p (least number most)
+  "True if NUMBER is between LEAST and MOST, but for rounding."
+  (let ((little (* 1d-9 (+ 1d0 (abs number)))))
+    (<= (- least little) number (+ most little))))
+
+(defun within-limit-p (placement limit)
+  "True if the fingers of LIMIT are as far apart in PLACEMENT as it says."
+  (within-p (limit-between-least limit)
+            (finger-distance placement (limit-between-one limit) (limit-between-two limit)
+                             (limit-between-skip limit))
+            (limit-between-most limit)))
+
 (defun legal-placement-p (placement freedom)
   "True if PLACEMENT is legal, but for rounding."
-  (flet ((within-p (least number most)
-           (let ((little (* 1d-9 (+ 1d0 (abs number)))))
-             (<= (- least little) number (+ most little)))))
-    (and (every #'within-p (freedom-low freedom) placement (freedom-high freedom))
-         (loop for limit in (freedom-between freedom)
-               always (within-p (limit-between-least limit)
-                                (finger-distance placement (limit-between-one limit)
-                                                 (limit-between-two limit)
-                                                 (limit-between-skip limit))
-                                (limit-between-most limit))))))
+  (and (every #'within-p (freedom-low freedom) placement (freedom-high freedom))
+       (loop for limit in (freedom-between freedom) always (within-limit-p placement limit))))
 
 ;;; The limits
 

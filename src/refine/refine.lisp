@@ -75,10 +75,14 @@ unit of its needs."
   "Return a placement of REFINING that is surely better than the plan's, whose radius is BEFORE, or NIL;
 its radius; and the bound of all radii."
   (let* ((freedom (r-freedom refining))
-         (start (or (make-legal (copy-seq (freedom-home freedom)) freedom)
-                    (freedom-home freedom))))
+         (home (copy-seq (freedom-home freedom)))
+         (start (or (make-legal home freedom) (freedom-home freedom))))
     (multiple-value-bind (placement value)
-        (climb refining start (radius-at refining start -1d300))
+        (climb-surely refining start (radius-at refining start -1d300))
+      (multiple-value-bind (other radius) (scan refining placement value)
+        (when (> radius value)
+          (multiple-value-bind (other radius) (climb-surely refining other radius)
+            (when (> radius value) (setf placement other value radius)))))
       (multiple-value-bind (placement value bound)
           (branch-and-bound refining placement value gap regions)
         (declare (ignore value))

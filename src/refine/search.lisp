@@ -28,47 +28,61 @@ PLACE of a placement.  They move one finger, all fingers, two fingers together, 
     (loop for (place . part) in move do (incf (aref new place) (* step part)))
     (make-legal new freedom)))
 
-(defun slope-move (refining placement value step)
-  "Return the move that raises the cuts of REFINING that are least at PLACEMENT, VALUE, or little more."
-  (let* ((freedom (r-freedom refining)) (size (length placement))
-         (slope (make-array size :element-type 'double-float :initial-element 0d0))
-         (soft (+ 1d-12 (* 0.05d0 (abs value) (min 1d0 step)))))
-    (dolist (cut (r-cuts refining))
-      (let ((weight (exp (- (min 50d0 (/ (- (cut-power refining cut placement) value) soft))))))
-        (when (> weight 1d-4)
-          (dotimes (place size)
-            (when (> (aref (freedom-high freedom) place) (aref (freedom-low freedom) place))
-              (let ((old (aref placement place)) (small 1d-6))
-                (setf (aref placement place) (+ old small))
-                (let ((up (cut-power refining cut placement)))
-                  (setf (aref placement place) (- old small))
-                  (incf (aref slope place)
-                        (* weight (- up (cut-power refining cut placement)))))
-                (setf (aref placement place) old)))))))
-    (let ((most (reduce #'max slope :key #'abs)))
-      (when (plusp most)
-        (list (loop for place below size
-                    unless (zerop (aref slope place))
-                      collect (cons place (/ (aref slope place) most))))))))
+(defun add-slope (refining cut placement weight slope)
+  "Add WEIGHT times the slope of CUT at PLACEMENT, along each coordinate that is free, to SLOPE."
+  (let ((freedom (r-freedom refining)) (small 1d-6))
+    (dotimes (place (length slope))
+      (when (> (aref (freedom-high freedom) place) (aref (freedom-low freedom) place))
+        (let ((here (aref placement place)))
+          (flet ((power (there)
+                   (setf (aref placement place) there)
+                   (cut-power refining cut placement)))
+            (incf (aref slope place)
+                  (* weight (- (power (+ here small)) (power (- here small)))))
+            (setf (aref placement place) here)))))))
 
-(defun better-placement (refining placement value moves step)
-  "Return a placement that one of MOVES by STEP, or one along the slope, makes of PLACEMENT, and its
-radius, if that is above VALUE; else NIL."
-  (let* ((least (+ value (* 1d-4 (abs value)) 1d-9))
-         (ways (loop for move in (append (slope-move refining placement value step) moves)
-                     append (loop for way in (list step (- step))
-                                  for new = (moved placement move way (r-freedom refining))
-                                  for radius = (and new (cuts-radius refining new))
-                                  when (and radius (> radius least))
-                                    collect (cons radius new)))))
-    (loop
-      (setf ways (stable-sort (remove least ways :key #'car :test #'>=) #'> :key #'car))
-      (when (null ways) (return nil))
-      (let* ((new (cdr (pop ways))) (radius (radius-at refining new least)))
-        (when (> radius least) (return (values new radius)))
-        (dolist (way ways)
-          (setf (car way)
-                (min (car way) (cut-power refining (first (r-cuts refining)) (cdr way)))))))))
+(defun slope-move (refining placement value part)
+  "Return the move that raises the cuts of REFINING that are least at PLACEMENT, VALUE, or more by about
+PART of it, the least ones most; NIL if none does."
+  (let ((slope (make-array (length placement) :element-type 'double-float :initial-element 0d0))
+        (soft (+ 1d-12 (* part (abs value)))))
+    (dolist (cut (r-cuts refining))
+      (let ((above (/ (- (cut-power refining cut placement) value) soft)))
+        (when (< above 10d0)
+          (add-slope refining cut placement (exp (- (max 0d0 above))) slope))))
+    (let ((most (reduce #'max slope :key #'abs)))
+      (and (plusp most)
+           (loop for part across slope
+                 for place from 0
+                 unless (zerop part)
+                   collect (cons place (/ part most)))))))
+
+(defparameter +softness+ '(0.1d0 0.03d0 0.01d0 0.003d0 0.001d0)
+  "Within which part of the radius cuts count for a move along the slope.")
+
+(defun better-ways (refining placement value moves step)
+  "Return what MOVES by STEP, and those along slopes, make of PLACEMENT, if the cuts of REFINING allow it
+more than VALUE: a list of (RADIUS . PLACEMENT), RADIUS the least that the cuts allow."
+  (let ((slopes (remove nil (loop for part in +softness+
+                                  collect (slope-move refining placement value part)))))
+    (loop for move in (append slopes moves)
+          append (loop for way in (list step (- step))
+                       for new = (moved placement move way (r-freedom refining))
+                       for radius = (and new (cuts-radius refining new))
+                       when (and radius (> radius value))
+                         collect (cons radius new)))))
+
+(defun first-above (refining ways least)
+  "Ask for the radii of WAYS, (RADIUS . PLACEMENT), the most promising first, until one is above LEAST.
+Return its placement and its radius, or NIL.  What is asked makes cuts, which rule out others."
+  (loop
+    (setf ways (stable-sort (remove least ways :key #'car :test #'>=) #'> :key #'car))
+    (when (null ways) (return nil))
+    (let* ((new (cdr (pop ways))) (radius (radius-at refining new least)))
+      (when (> radius least) (return (values new radius)))
+      (dolist (way ways)
+        (setf (car way) (min (car way)
+                             (cut-power refining (first (r-cuts refining)) (cdr way))))))))
 
 (defun widest (low high)
   "Return the place where LOW and HIGH, vectors, differ most, and by how much."
@@ -83,9 +97,22 @@ radius.  The first step is a quarter of the way that a finger has, the last one 
   (let* ((freedom (r-freedom refining)) (moves (unit-moves freedom))
          (way (nth-value 1 (widest (freedom-low freedom) (freedom-high freedom)))))
     (loop with step = (/ way 4)
+          repeat 400
           while (> step (min 5d-3 (/ way 500)))
-          do (multiple-value-bind (new radius) (better-placement refining placement value moves step)
+          do (multiple-value-bind (new radius)
+                 (let ((least (+ value (* 1d-4 (abs value)) 1d-9)))
+                   (first-above refining (better-ways refining placement least moves step) least))
                (if new
                    (setf placement new value radius)
                    (setf step (/ step 2)))))
     (values placement value)))
+
+(defun climb-surely (refining placement value)
+  "Climb from PLACEMENT, with the radius VALUE, until what is found is as good as it was taken for.
+Return the placement and its radius, an upper value within 1 % if that can be proved."
+  (loop repeat 5
+        do (multiple-value-setq (placement value) (climb refining placement value))
+           (let ((upper (ask refining placement 0.01d0 1d-3 30000)))
+             (when (>= upper (* 0.995d0 value)) (return))
+             (setf value upper)))
+  (values placement value))
