@@ -65,6 +65,7 @@
                              (:file "least-change")
                              (:file "choice")
                              (:file "requires")
+                             (:file "refined-fingers")
                              (:file "describe")))
                (:module "verify"
                 :serial t

@@ -83,7 +83,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:refine #:refinement #:refinement-p #:refinement-candidate #:refinement-plan #:refinement-home
    #:refinement-contacts #:refinement-moved-p #:refinement-radius-before #:refinement-radius
    #:refinement-radius-bound #:refinement-quality-before #:refinement-quality
-   #:refinement-quality-bound
+   #:refinement-quality-bound #:explain-refinement
    ;; directions
    #:direction-shares #:direction-text
    ;; what contacts can really do

@@ -10,7 +10,8 @@
 the input; FORMAT is :TRACE, :LISP, :JSON, the name of a writer, or NIL, as the input.  BAD counts the error records;
 BROKEN is true if one of them was an internal error.  LAST, after an error record, whose box may go
 on, is the line where it ended, or :REST once it did go on.  PLANS holds the plans for a report, the
-latest first, if KEEP is true.  ALL says how many alternatives a record has, NIL for none.
+latest first, if KEEP is true.  ALL says how many alternatives a record has, NIL for none;
+REFINE is true if it tells what refining gives.
 MODELS says where a file of each box goes, if not NIL; LOST is true if one could not be written."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
@@ -23,7 +24,7 @@ MODELS says where a file of each box goes, if not NIL; LOST is true if one could
   (last nil)
   (keep nil) (plans '() :type list)
   (all nil :type (or null fixnum))
-  (models nil) (lost nil)
+  (refine nil) (models nil) (lost nil)
   (after-record nil :type (or null function)))
 
 (defun run-batch (batch descriptor)
@@ -244,7 +245,8 @@ and whether they are ours."
           (write-model batch plan line))
         (case (batch-format batch)
           (:trace (with-output-to-string (out) (write-transcript plan out)))
-          ((:lisp :json) (plan-record plan :line line :all (batch-all batch)))
+          ((:lisp :json) (plan-record plan :line line :all (batch-all batch)
+                                                  :refine (batch-refine batch)))
           (t (writer-result batch plan line))))
     (box-error (condition)
       (let ((problems (input-error-problems condition)))
@@ -279,7 +281,8 @@ and whether they are ours."
                       (loop for problem in problems
                             collect (visible-text (problem-reason problem)))))
       ((:lisp :json) (error-record problems :name name :line line :index (batch-index batch)
-                                            :all (batch-all batch)))
+                                            :all (batch-all batch)
+                                            :refine (batch-refine batch)))
       (t (let ((writer (find-writer (batch-format batch))))
            (tell-of-none (writer-kind writer) name line reason)
            (written-mistake writer name reason))))))

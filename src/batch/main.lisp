@@ -204,6 +204,8 @@ not."
     (misused "--verify goes with --check"))
   (when (and (getf options :all) (eq (getf options :format) :trace))
     (misused "--all does not go with --format trace, which shows all possible grasps"))
+  (when (and (getf options :refine) (not (member (getf options :format) '(nil :lisp :json))))
+    (misused "--refine goes with --format sexp or json, which have a place for it"))
   (multiple-value-bind (knowledge status) (try-knowledge options)
     (cond ((null knowledge) status)
           ((getf options :verify)
@@ -226,6 +228,7 @@ not."
                (setf (batch-after-record batch) (follow-progress batch)))
              (setf (batch-keep batch) (and (getf options :report) t)
                    (batch-all batch) (getf options :all)
+                   (batch-refine batch) (getf options :refine)
                    (batch-models batch) (and (getf options :mjcf) (make-models (getf options :mjcf))))
              (run-files batch files (getf options :report)))))))
 

@@ -28,6 +28,9 @@ record a box to standard output, in the same order: the best of seven grasps for
                             really do, proved, which takes a thousand times as long
   --all N                   also write the N best possible grasps of each box, the best first, with all
                             that is written of the best; 1000 at most
+  --refine                  also move the fingers of the three best grasps to better places, and write
+                            where they went, what that gains, and how much more is possible at most;
+                            about half a second a box
   --report DIR              also write a page for each box into DIR, and an index with thumbnails;
                             needs cl-who (docs/pictures.md), and keeps all plans till the end
   --check                   only read the rules and grasps, and say what is wrong with them
@@ -81,6 +84,7 @@ Examples:
     ("--gamma" :gamma :gamma)
     ("--index" :index :choice "paper" "exact")
     ("--all" :all :count 1000)
+    ("--refine" :refine)
     ("--depth-limit" :depth-limit :count 1000)
     ("--record-limit" :record-limit :count 1000000)
     ("--number-limit" :number-limit :count 1000)

@@ -2,7 +2,7 @@
 
 (in-package :supergrip)
 
-(defun plan-record (plan &key line all)
+(defun plan-record (plan &key line all refine)
   "Return the record of PLAN, a plist of strings, numbers, lists and NIL:
 
 :NAME  :LINE  the box's name, and LINE, where its description begins.
@@ -24,7 +24,9 @@ In exact mode also, of the best grasp (see src/plan/exact.lisp):
 If the box has a POSE:
 :WORLD  where the hand of the best grasp is in the world, as :HAND: see CANDIDATE-WORLD.
 If ALL, a number, is given:
-:ALTERNATIVES  at most ALL of the possible grasps, the best first: see ALTERNATIVES."
+:ALTERNATIVES  at most ALL of the possible grasps, the best first: see ALTERNATIVES.
+If REFINE:
+:REFINED  what moving the fingers of the best grasps gives: see REFINED-PART."
   (let* ((best (plan-best plan))
          (contacts (and best (candidate-contacts best plan)))
          (candidates (plan-candidates plan)))
@@ -36,7 +38,8 @@ If ALL, a number, is given:
                          :possible (count :possible candidates :key #'%candidate-outcome)
                          :reason (plan-reason plan))
                    (further-part best contacts plan)
-                   (and all (list :alternatives (alternatives plan all)))))))
+                   (and all (list :alternatives (alternatives plan all)))
+                   (and refine (list :refined (refined-part plan)))))))
 
 (defun alternatives (plan most)
   "Return at most MOST of the possible grasps of PLAN, the best first: of each, a plist, what a record
@@ -44,6 +47,23 @@ tells of the best, from :GRASP to :CONTACTS and from :SURE on."
   (loop for candidate in (best-grasps plan most)
         for contacts = (candidate-contacts candidate plan)
         collect (append (grasp-part candidate contacts) (further-part candidate contacts plan))))
+
+(defun refined-part (plan)
+  "Return what REFINE makes of PLAN, a plist, NIL without a grasp: :GRASP and :MATCHING; :QUALITY, exact and
+certified, :QUALITY-BEFORE, the same before the fingers moved, and :QUALITY-BOUND, which no legal places
+exceed; :BETA, the exact radius, (LOWER UPPER); :CONTACTS and :HAND after the move."
+  (let ((refinement (refine plan)))
+    (when refinement
+      (let ((candidate (refinement-candidate refinement))
+            (contacts (refinement-contacts refinement)))
+        (list :grasp (candidate-grasp candidate)
+              :matching (candidate-matching candidate)
+              :quality (refinement-quality refinement)
+              :quality-before (refinement-quality-before refinement)
+              :quality-bound (refinement-quality-bound refinement)
+              :beta (refinement-radius refinement)
+              :contacts contacts
+              :hand (contacts-hand candidate contacts (plan-box plan)))))))
 
 (defun further-part (best contacts plan)
   "Return the part of a record that tells more of the grasp BEST, with CONTACTS, of PLAN, or of none."
@@ -87,7 +107,7 @@ PLAN, or of none.")
             :approach (candidate-approach best)
             :contacts contacts)))
 
-(defun error-record (problems &key name line (index :paper) all)
+(defun error-record (problems &key name line (index :paper) all refine)
   "Return the record of a box that can't be used because of PROBLEMS: as PLAN-RECORD gives it, with
 :STATUS \"error\", the problems in one :REASON, and each in :PROBLEMS as (:LINE l :COLUMN c :TEXT t)."
   (list* :name name
@@ -104,7 +124,8 @@ PLAN, or of none.")
                        :sure nil
                        :hand nil)
                  (index-part index nil nil)
-                 (and all (list :alternatives nil)))))
+                 (and all (list :alternatives nil))
+                 (and refine (list :refined nil)))))
 
 (defun problems-reason (problems)
   "Return PROBLEMS in one line."

@@ -92,11 +92,12 @@ its radius; and the bound of all radii."
 
 (defun placed-contacts (contacts placement)
   "Return CONTACTS, plists, at PLACEMENT."
-  (loop for contact in contacts
+  (loop for contact in (mapcar #'copy-list contacts)
         for place from 0 by 3
-        collect (list :surface (getf contact :surface)
-                      :position (coerce (subseq placement place (+ place 3)) 'list)
-                      :normal (getf contact :normal))))
+        do (setf (getf contact :position)
+                 (mapcar #'without-sign-of-zero
+                         (coerce (subseq placement place (+ place 3)) 'list)))
+        collect contact))
 
 (defun refine-candidate (candidate plan gap regions)
   "Return the REFINEMENT of CANDIDATE, a possible one of PLAN."

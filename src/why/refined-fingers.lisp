@@ -1,0 +1,60 @@
+;;;; refined-fingers.lisp -- what moving the fingers of a grasp has gained, in words.
+
+(in-package :supergrip)
+
+(defun cm-text (place)
+  "Return PLACE, three numbers in cm, as (-0.87 -1 0)."
+  (plain-text "(~{~a~^ ~})"
+              (loop for number in place
+                    collect (number-text (/ (round (* 100 number)) 100d0)))))
+
+(defun write-moves (refinement stream)
+  "Write where each finger of REFINEMENT was, and where it is now."
+  (loop for home in (refinement-home refinement)
+        for contact in (refinement-contacts refinement)
+        do (format stream "  ~a on ~a: from ~a to ~a~%" (getf contact :finger) (getf contact :surface)
+                   (cm-text (getf home :position)) (cm-text (getf contact :position)))))
+
+(defun gain-text (from to)
+  "Return by how much TO, a quality, is above FROM, in percent: \"12.3 %\"."
+  (if (plusp from)
+      (plain-text "~,1f %" (* 100 (/ (- to from) from)))
+      "any part"))
+
+(defun write-radius (words radius stream)
+  (destructuring-bind (lower upper) radius
+    (format stream "~a ~a~@[, proved~*~]" words
+            (if lower
+                (plain-text "~,3f to ~,3f" lower upper)
+                (plain-text "at most ~,3f, nothing proved" upper))
+            lower)))
+
+(defmethod write-answer ((answer refinement) stream)
+  (let ((before (refinement-quality-before answer)) (after (refinement-quality answer))
+        (candidate (refinement-candidate answer)))
+    (format stream "~a (~{~a~^ ~}): " (candidate-grasp candidate) (candidate-matching candidate))
+    (cond ((null (refinement-radius answer))
+           (format stream "the task needs no force, or it is too large to compute with, so the ~
+                           fingers stay.~%"))
+          ((refinement-moved-p answer)
+           (format stream "with its fingers moved, the exact Q is ~,3f, not ~,3f: ~a more.~%" after
+                   before (gain-text before after))
+           (write-moves answer stream))
+          (t (format stream "no better places were found, so the fingers stay; the exact Q is ~
+                             ~,3f.~%" after)))
+    (when (refinement-radius answer)
+      (write-radius "The exact radius of forces is" (refinement-radius answer) stream)
+      (when (refinement-moved-p answer)
+        (write-radius "; it was" (refinement-radius-before answer) stream))
+      (format stream ".~%No legal places of these fingers give a Q above ~,3f: ~a more at most.~%"
+              (refinement-quality-bound answer)
+              (gain-text after (refinement-quality-bound answer))))))
+
+(defun explain-refinement (&optional (plan *plan*) &rest keys)
+  "Refine PLAN as REFINE does, with the same KEYS; print what that gained, in words, of the best grasp, and
+return its REFINEMENT.  PLAN may be a refinement that REFINE has returned."
+  (let ((refinement (if (refinement-p plan) plan (apply #'refine plan keys))))
+    (if refinement
+        (print-answer refinement)
+        (format t "There is no grasp to refine: ~a~%" (plan-reason plan)))
+    refinement))
