@@ -19,20 +19,21 @@
 (defun lattice (freedom count)
   "Return the legal placements of FREEDOM in which each finger stands on a lattice of COUNT by COUNT; NIL
 if there are too many."
-  (let ((found '()) (left +most-scanned+) (fingers (freedom-count freedom))
-        (placement (copy-seq (freedom-home freedom))))
+  (let* ((found '()) (left +most-scanned+) (fingers (freedom-count freedom))
+         (places (loop for finger below fingers collect (finger-lattice freedom finger count)))
+         (placement (copy-seq (freedom-home freedom))))
     (labels ((apart-p (finger)
                (loop for limit in (freedom-between freedom)
                      always (or (/= finger (limit-between-two limit))
                                 (within-limit-p placement limit))))
-             (place-from (finger)
+             (place-from (finger places)
                (if (= finger fingers)
                    (progn (push (copy-seq placement) found)
                           (when (minusp (decf left)) (return-from lattice nil)))
-                   (dolist (place (finger-lattice freedom finger count))
+                   (dolist (place (first places))
                      (replace placement place :start1 (* 3 finger))
-                     (when (apart-p finger) (place-from (1+ finger)))))))
-      (place-from 0)
+                     (when (apart-p finger) (place-from (1+ finger) (rest places)))))))
+      (place-from 0 places)
       found)))
 
 (defun finest-lattice (freedom)
@@ -51,7 +52,7 @@ PLACEMENT; else those two.  Only where the cuts allow more than VALUE is the rad
                     collect (cons (cuts-radius refining other) other))))
     (loop
       (let ((least (+ (* 1.01d0 (max value 0d0)) 1d-9)))
-        (multiple-value-bind (other radius) (first-above refining ways least)
+        (multiple-value-bind (other radius) (first-above refining ways least 40)
           (if other
               (setf placement other value radius)
               (return (values placement value))))))))

@@ -72,10 +72,11 @@ more than VALUE: a list of (RADIUS . PLACEMENT), RADIUS the least that the cuts 
                        when (and radius (> radius value))
                          collect (cons radius new)))))
 
-(defun first-above (refining ways least)
-  "Ask for the radii of WAYS, (RADIUS . PLACEMENT), the most promising first, until one is above LEAST.
-Return its placement and its radius, or NIL.  What is asked makes cuts, which rule out others."
-  (loop
+(defun first-above (refining ways least most)
+  "Ask for the radii of at most MOST of WAYS, (RADIUS . PLACEMENT), the most promising first, until one is
+above LEAST.  Return its placement and its radius, or NIL.  What is asked makes cuts, which rule out
+others."
+  (loop repeat most do
     (setf ways (stable-sort (remove least ways :key #'car :test #'>=) #'> :key #'car))
     (when (null ways) (return nil))
     (let* ((new (cdr (pop ways))) (radius (radius-at refining new least)))
@@ -91,6 +92,9 @@ Return its placement and its radius, or NIL.  What is asked makes cuts, which ru
       (when (> (- (aref high k) (aref low k)) most)
         (setf place k most (- (aref high k) (aref low k)))))))
 
+(defparameter +worth+ 2d-3 "Which part of the radius a move has to gain.")
+(defparameter +most-asked+ 8 "How many moves of one length may fail before shorter ones are tried.")
+
 (defun climb (refining placement value)
   "Return a placement that no small move betters, found from PLACEMENT, with the radius VALUE; and its
 radius.  The first step is a quarter of the way that a finger has, the last one 0.1 mm or less."
@@ -100,8 +104,9 @@ radius.  The first step is a quarter of the way that a finger has, the last one 
           repeat 400
           while (> step (min 5d-3 (/ way 500)))
           do (multiple-value-bind (new radius)
-                 (let ((least (+ value (* 1d-4 (abs value)) 1d-9)))
-                   (first-above refining (better-ways refining placement least moves step) least))
+                 (let ((least (+ value (* +worth+ (abs value)) 1d-9)))
+                   (first-above refining (better-ways refining placement least moves step) least
+                                +most-asked+))
                (if new
                    (setf placement new value radius)
                    (setf step (/ step 2)))))
