@@ -54,6 +54,7 @@
                 :serial t
                 :components ((:file "answers")
                              (:file "motions")
+               (:file "rules-and-refining")
                              (:file "false-conditions")
                              (:file "failures")
                              (:file "derivation")

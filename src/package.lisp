@@ -82,7 +82,7 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    ;; refining
    #:refine #:refinement #:refinement-p #:refinement-candidate #:refinement-plan #:refinement-home
    #:refinement-contacts #:refinement-moved-p #:refinement-radius-before #:refinement-radius
-   #:refinement-radius-bound #:refinement-quality-before #:refinement-quality
+   #:refinement-radius-bound #:refinement-radius-nearby #:refinement-quality-before #:refinement-quality
    #:refinement-quality-bound #:explain-refinement
    ;; directions
    #:direction-shares #:direction-text

@@ -156,10 +156,16 @@
                            (* (+ 1d0 1d-9) (supergrip:refinement-radius-bound refinement)))))))
     (is (< 40 checked))))
 
+(defun all-places-alike-plan ()
+  "Return a plan whose task is a force along Z: by friction, 2u, wherever the fingers stand."
+  (supergrip:plan (with-entries *good-box* :force-needed '((0 0 1 0 0 0)) :weight '(0))))
+
+(defun refined-pencil ()
+  "Return the refinement of the pencil's best grasp, in a list."
+  (list (supergrip:refine (pencil-plan) :count 1 :regions 50)))
+
 (test where-all-places-are-as-good-the-fingers-stay
-  "A force along Z is friction: 2u, wherever the fingers of the pencil stand."
-  (let* ((plan (supergrip:plan (with-entries *good-box* :force-needed '((0 0 1 0 0 0))
-                                               :weight '(0))))
+  (let* ((plan (all-places-alike-plan))
          (refinement (supergrip:refine plan :count 1)))
     (is (not (supergrip:refinement-moved-p refinement)))
     (is (close-to 1.6d0 (supergrip:refinement-radius-bound refinement) 2d-3))))
@@ -175,3 +181,44 @@
            (supergrip:candidate-velocity-radius (supergrip:refinement-candidate refinement)))))
   (is (equal "count is 0; it is how many grasps to refine, 1 or more"
              (error-text (supergrip:refine (pencil-plan) :count 0)))))
+
+;;; What is told
+
+(test the-record-tells-what-refining-gives
+  (let* ((plan (supergrip:plan *good-box*))
+         (record (supergrip::plan-record plan :all 1 :refine t))
+         (refined (getf record :refined)))
+    (is (equal '(:alternatives :refined)
+               (loop for (key) on (last record 4) by #'cddr collect key)))
+    (is (equal record (json-record (json-line record))))
+    (is (equal record (lisp-record (lisp-line record))))
+    (is (equal '(:grasp :matching :quality :quality-before :quality-bound :beta :contacts :hand)
+               (loop for (key) on refined by #'cddr collect key)))
+    (is (<= (getf refined :quality-before) (getf refined :quality)
+            (getf refined :quality-bound)))
+    (is (equal (mapcar (lambda (contact) (getf contact :finger)) (getf record :contacts))
+               (mapcar (lambda (contact) (getf contact :finger)) (getf refined :contacts)))))
+  (is (equal '(:refined nil)
+             (last (supergrip::plan-record (supergrip:plan (plan-box-too-heavy)) :refine t) 2)))
+  (is (equal '(:refined nil)
+             (last (supergrip::error-record (list (supergrip-data:make-problem :text "bad"))
+                                            :refine t)
+                   2))))
+
+(test what-refining-gained-is-told-in-words
+  (let ((refinement (first (refined-pencil))))
+    (destructuring-bind (first . others) (printed (supergrip:explain-refinement refinement))
+      (is (eql 0 (search "PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1): with its fingers moved, the exact Q is "
+                         first)))
+      (is (eql 0 (search "  F1 on Y2: from (-0.87 -1 0) to (" (first others))))
+      (is (search ", proved; it was 0.880 to 0.881, proved." (fourth others)))
+      (is (eql 0 (search "No legal places of these fingers give a Q above " (fifth others))))))
+  (is (equal '("PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1): no better places were found, so the fingers stay; the exact Q is 1.112."
+               "The exact radius of forces is 1.598 to 1.600, proved."
+               "No legal places of these fingers give a Q above 1.114: 0.2 % more at most.")
+             (printed (supergrip:explain-refinement (supergrip:refine (all-places-alike-plan))))))
+  (is (search "the task needs no force" (first (printed (supergrip:explain-refinement
+                                                         (supergrip:plan (changed-box :force-needed '(0 0 0 0 0 0))))))))
+  (is (eql 0 (search "There is no grasp to refine: "
+                     (first (printed (supergrip:explain-refinement
+                                      (supergrip:plan (plan-box-too-heavy)))))))))

@@ -8,6 +8,7 @@
 ;;;; sbcl --script t/study.lisp lifting                     what sound lifting loses
 ;;;; sbcl --script t/study.lisp lying                       what changes when the frame of a box is turned
 ;;;; sbcl --script t/study.lisp index                       u_w beside the exact radius
+;;;; sbcl --script t/study.lisp refined [COUNT]              rules, trying everything, and refining
 ;;;; sbcl --script t/study.lisp radii | python3 t/radii.py   exact radii by other means
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
@@ -439,6 +440,9 @@ grasp, or one elsewhere on the box, is then the best."
         ((equal what "lying") (print-lying 1000))
         ((equal what "index") (loop for (kind maker) in (subseq *kinds* 0 2)
                                     do (print-index kind (boxes-of maker 2000 1))))
+        ((equal what "refined")
+         (let ((count (parse-integer (or (first files) "1000"))))
+           (print-times (print-study count))))
         ((equal what "radii") (print-radii 300 (sb-ext:seed-random-state 1)))
         ((equal what "compare") (apply #'print-comparison files))
         (t

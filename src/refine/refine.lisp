@@ -6,8 +6,9 @@
   "What moving the fingers of CANDIDATE, a possible one of PLAN, has gained.  HOME and CONTACTS are where
 they were and where they are now, as CANDIDATE-CONTACTS has it; RADIUS-BEFORE and RADIUS are (LOWER
 UPPER), the exact radius then and now, LOWER certified or NIL, or NIL where there is none;
-RADIUS-BOUND is what no legal placement exceeds."
-  candidate plan home contacts radius-before radius radius-bound)
+RADIUS-BOUND is what no legal placement exceeds; RADIUS-NEARBY what climbing from HOME alone reached,
+within 1 %."
+  candidate plan home contacts radius-before radius radius-bound radius-nearby)
 
 (defun radius-quality (refinement radius)
   "Return the quality that the candidate of REFINEMENT has with RADIUS, a force radius or NIL, which is 0."
@@ -71,24 +72,29 @@ unit of its needs."
                (when lower (return))))
     best))
 
+(defun scan-and-climb (refining placement value)
+  "Return PLACEMENT, with the radius VALUE, or a better one, found from a lattice; and its radius."
+  (multiple-value-bind (other radius) (scan refining placement value)
+    (when (> radius value)
+      (multiple-value-bind (other radius) (climb-surely refining other radius)
+        (when (> radius value) (setf placement other value radius))))
+    (values placement value)))
+
 (defun better-places (refining before gap regions)
   "Return a placement of REFINING that is surely better than the plan's, whose radius is BEFORE, or NIL;
-its radius; and the bound of all radii."
+its radius; the bound of all radii; and the radius that climbing from the plan's places reached."
   (let* ((freedom (r-freedom refining))
          (home (copy-seq (freedom-home freedom)))
          (start (or (make-legal home freedom) (freedom-home freedom))))
-    (multiple-value-bind (placement value)
+    (multiple-value-bind (placement nearby)
         (climb-surely refining start (radius-at refining start -1d300))
-      (multiple-value-bind (other radius) (scan refining placement value)
-        (when (> radius value)
-          (multiple-value-bind (other radius) (climb-surely refining other radius)
-            (when (> radius value) (setf placement other value radius)))))
-      (multiple-value-bind (placement value bound)
-          (branch-and-bound refining placement value gap regions)
-        (declare (ignore value))
-        (let ((after (certify refining placement)))
-          (values (and (first after) (> (first after) (max 0d0 (second before))) placement)
-                  after (max bound (second before) (second after))))))))
+      (multiple-value-bind (placement value) (scan-and-climb refining placement nearby)
+        (multiple-value-bind (placement value bound)
+            (branch-and-bound refining placement value gap regions)
+          (declare (ignore value))
+          (let ((after (certify refining placement)))
+            (values (and (first after) (> (first after) (max 0d0 (second before))) placement)
+                    after (max bound (second before) (second after)) nearby)))))))
 
 (defun placed-contacts (contacts placement)
   "Return CONTACTS, plists, at PLACEMENT."
@@ -109,13 +115,14 @@ its radius; and the bound of all radii."
             (start-refining candidate workspace (knowledge-graspbase (plan-knowledge plan)))
           (flet ((in-units (radius) (mapcar (lambda (r) (and r (/ r unit))) radius)))
             (let ((before (certify refining (freedom-home (r-freedom refining)))))
-              (multiple-value-bind (placement after bound)
+              (multiple-value-bind (placement after bound nearby)
                   (better-places refining before gap regions)
                 (when placement
                   (setf (refinement-contacts refinement) (placed-contacts home placement)))
                 (setf (refinement-radius-before refinement) (in-units before)
                       (refinement-radius refinement) (in-units (if placement after before))
-                      (refinement-radius-bound refinement) (/ bound unit)))))))
+                      (refinement-radius-bound refinement) (/ bound unit)
+                      (refinement-radius-nearby refinement) (/ nearby unit)))))))
       refinement)))
 
 (defun refinable-p (candidate workspace)

@@ -1,0 +1,140 @@
+;;;; rules-and-refining.lisp -- rules, trying everything, and refining, compared on the same boxes.
+;;;;
+;;;; sbcl --script t/study.lisp refined measures 1,000 boxes, for docs/study.md; a test measures a few, and
+;;;; looks whether the page has what comes out.
+
+(in-package :supergrip-test)
+(define-suite rules-and-refining "What the page on rules, trying everything and refining says.")
+
+(defun study-boxes (count)
+  "Return COUNT boxes: of each two, one on a table and one of a household."
+  (let ((state (sb-ext:seed-random-state 2026)))
+    (loop for number below count
+          collect (supergrip:parse-box (if (evenp number) (table-box state) (household-box state))))))
+
+(defun mixed-quality (force velocity gamma)
+  "Return the quality of the radii FORCE and VELOCITY, NIL where there is none."
+  (cond ((null velocity) force)
+        ((null force) velocity)
+        (t (+ (* gamma velocity) (* (- 1 gamma) force)))))
+
+(defun exact-quality (plan)
+  "Return the quality of the best grasp of PLAN by its certified exact radius, 0 for the radius where the
+contacts do not hold the weight; NIL without a grasp.  The second value is true if they hold it."
+  (let ((best (supergrip:plan-best plan)))
+    (when best
+      (multiple-value-bind (upper lower) (supergrip:candidate-exact-radius best plan)
+        (values (mixed-quality (and upper (max 0 (or lower 0)))
+                               (supergrip:candidate-velocity-radius best)
+                               (supergrip:plan-gamma plan))
+                (or (null upper) (>= upper 0)))))))
+
+(defun timed (function boxes)
+  "Return what FUNCTION makes of each of BOXES, a list, and how many ms of processor time a box took."
+  (let* ((start (get-internal-run-time))
+         (results (mapcar function boxes)))
+    (values results (/ (- (get-internal-run-time) start) 1000d0 (length boxes)))))
+
+(defun of-sorted (share numbers)
+  (let ((sorted (sort (copy-list numbers) #'<)))
+    (nth (floor (* share (1- (length sorted)))) sorted)))
+
+(defstruct way
+  "A way to choose grasps.  NAME in the table; for each box: TRIED, how many candidates, and QUALITY, exact, or
+NIL; HELD, how many weights are held; TIME, ms a box."
+  name tried quality held time)
+
+(defun way-of-plans (name boxes knowledge index)
+  "Return the way NAME of planning BOXES by KNOWLEDGE and INDEX, and its plans."
+  (multiple-value-bind (plans time)
+      (timed (lambda (box) (supergrip:plan box :knowledge knowledge :index index)) boxes)
+    (let ((qualities (mapcar (lambda (plan) (multiple-value-list (exact-quality plan))) plans)))
+      (values (make-way :name name :time time
+                        :tried (mapcar (lambda (plan) (length (supergrip:plan-candidates plan))) plans)
+                        :quality (mapcar #'first qualities) :held (count-if #'second qualities))
+              plans))))
+
+(defun way-of-refining (name way plans)
+  "Return the way NAME, which refines the best grasps of PLANS, those of WAY; and the refinements."
+  (multiple-value-bind (refinements time)
+      (timed (lambda (plan) (supergrip:refine plan :count 1)) plans)
+    (values (make-way :name name :time (+ (way-time way) time) :tried (way-tried way)
+                      :quality (loop for r in refinements
+                                     collect (and r (supergrip:refinement-quality r)))
+                      :held (loop for r in refinements
+                                  count (and r (or (null (supergrip:refinement-radius r))
+                                                   (>= (second (supergrip:refinement-radius r))
+                                                       0)))))
+            (remove nil refinements))))
+
+(defun ways (boxes)
+  "Return the five ways to choose grasps for BOXES, and the refinements of the last."
+  (let ((rules supergrip:*knowledge*) (everything (everything-knowledge)))
+    (multiple-value-bind (paper plans) (way-of-plans "rules, paper's index" boxes rules :paper)
+      (multiple-value-bind (refined refinements)
+          (way-of-refining "rules, paper's index, refined" paper plans)
+        (values (list paper
+                      (way-of-plans "everything, paper's index" boxes everything :paper)
+                      (way-of-plans "rules, exact index" boxes rules :exact)
+                      (way-of-plans "everything, exact index" boxes everything :exact)
+                      refined)
+                refinements)))))
+
+(defun print-ways (ways)
+  "Print a line for each of WAYS; qualities are parts of those of the fourth, the best unrefined ones."
+  (let ((common (loop for qualities in (apply #'mapcar #'list (mapcar #'way-quality ways))
+                      collect (and (notany #'null qualities) (plusp (fourth qualities))))))
+    (format t "| way | candidates a box | boxes with a grasp | hold the weight | part of the best exact ~
+               Q: mean | 10 % are below | within 1 % or above |~%")
+    (format t "| --- | --- | --- | --- | --- | --- | --- |~%")
+    (dolist (way ways)
+      (let ((parts (loop for quality in (way-quality way)
+                         for best in (way-quality (fourth ways))
+                         for both in common
+                         when both collect (/ quality best))))
+        (format t "| ~a | ~,1f | ~d | ~d | ~,3f | ~,2f | ~d of ~d |~%" (way-name way)
+                (/ (reduce #'+ (way-tried way)) (length (way-tried way)))
+                (count-if #'identity (way-quality way)) (way-held way)
+                (/ (reduce #'+ parts) (length parts)) (of-sorted 0.1 parts)
+                (count-if (lambda (part) (>= part 0.99)) parts) (length parts))))))
+
+(defun print-gains (refinements)
+  "Print what REFINEMENTS have gained: of those that have a radius."
+  (let* ((all (remove nil refinements :key #'supergrip:refinement-radius))
+         (radii (loop for r in all collect (or (first (supergrip:refinement-radius r)) 0)))
+         (qualities (loop for r in all
+                          for before = (supergrip:refinement-quality-before r)
+                          when (plusp before) collect (/ (supergrip:refinement-quality r) before))))
+    (flet ((line (what numbers)
+             (format t "| ~a |~{ ~,3f |~}~%" what
+                     (mapcar (lambda (share) (of-sorted share numbers)) '(0 0.25 0.5 0.75 0.9 1)))))
+      (format t "| of ~d refined grasps | least | 25 % | median | 75 % | 90 % | greatest |~%"
+              (length all))
+      (format t "| --- | --- | --- | --- | --- | --- | --- |~%")
+      (line "Q refined / Q before" qualities)
+      (line "radius refined / radius before"
+            (loop for r in all for radius in radii
+                  for before = (or (first (supergrip:refinement-radius-before r)) 0)
+                  when (plusp before) collect (/ radius before)))
+      (line "bound of Q / Q refined"
+            (loop for r in all
+                  collect (/ (supergrip:refinement-quality-bound r) (supergrip:refinement-quality r))))
+      (format t "~%Fingers moved in ~d of ~d. The search from the plan's own places alone came within 2 % ~
+                 of the radius in the end in ~d of ~d.~%"
+              (count-if #'supergrip:refinement-moved-p all) (length all)
+              (loop for r in all for radius in radii
+                    count (>= (supergrip:refinement-radius-nearby r) (* 0.98 radius)))
+              (length all)))))
+
+(defun print-study (count)
+  "Print the tables of docs/study.md for COUNT boxes.  Return the ways and the refinements."
+  (multiple-value-bind (ways refinements) (ways (study-boxes count))
+    (print-ways ways)
+    (terpri)
+    (print-gains refinements)
+    (values ways refinements)))
+
+(defun print-times (ways)
+  (format t "~%| way | ms a box |~%| --- | --- |~%")
+  (dolist (way ways)
+    (format t "| ~a | ~,3f |~%" (way-name way) (way-time way))))
