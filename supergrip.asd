@@ -54,7 +54,6 @@
                 :serial t
                 :components ((:file "answers")
                              (:file "motions")
-               (:file "rules-and-refining")
                              (:file "false-conditions")
                              (:file "failures")
                              (:file "derivation")
@@ -253,6 +252,7 @@
                (:file "explain")
                (:file "requires")
                (:file "motions")
+               (:file "rules-and-refining")
                (:file "printer-settings")
                (:file "false-conditions")
                (:file "repl")

@@ -61,6 +61,7 @@
           ("--all is a whole number from 1 to 1000, not 0" "--all" "0") ("not 1001" "--all" "1001")
           ("not 1.5" "--all" "1.5") ("not many" "--all" "many") ("--all needs a value" "--all")
           ("--all does not go with --format trace" "--all" "2" "--format" "trace")
+          ("--refine goes with --format sexp or json" "--refine" "--format" "trace")
           ("--check reads no boxes: x" "--check" "x")
           ("--verify goes with --check" "--verify" "x")
           ("there is no option -x" "-x"))
