@@ -109,7 +109,7 @@ boxes where all ways have a grasp."
                           for before = (supergrip:refinement-quality-before r)
                           when (plusp before) collect (/ (supergrip:refinement-quality r) before))))
     (flet ((line (what numbers)
-             (format t "| ~a |~{ ~,3f |~}~%" what
+             (format t "| ~a |~{ ~,2f |~}~%" what
                      (mapcar (lambda (share) (of-sorted share numbers)) '(0 0.25 0.5 0.75 0.9 1)))))
       (format t "| of ~d refined grasps | least | 25 % | median | 75 % | 90 % | greatest |~%"
               (length all))
