@@ -39,6 +39,16 @@
     (CENTRE 0 0 -1)
     (NAME "carton on a chute")))
 
+(defparameter *toy-block*
+  '((SIZE 4 4 4)
+    (WEIGHT 0.04)
+    (u 0.5)
+    (v 0.17)
+    (CONSTRAINED Z2)
+    (FORCE-NEEDED (0.5 0.5 1 0.2 0.2 0.4))
+    (VELOCITY-NEEDED (1 1 0.7 0 0 0.3))
+    (NAME "toy block")))
+
 (let* ((given (second sb-ext:*posix-argv*))
        (directory (if given
                       (uiop:ensure-directory-pathname (merge-pathnames given (uiop:getcwd)))
@@ -60,5 +70,8 @@
                         (supergrip-draw:draw-plan (supergrip:plan *carton*) (file "carton.svg"))
                         (supergrip-draw:draw-quality pencil (file "quality.svg"))
                         (supergrip-draw:draw-section pencil (file "section.svg"))
+                        (supergrip-draw:draw-refinement
+                         (supergrip:refine (supergrip:plan *toy-block*) :count 1)
+                         (file "refinement.svg"))
                         (supergrip-draw:report pencil (file "pencil.html"))))
       (format t "~a~%" (file-namestring file)))))

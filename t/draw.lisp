@@ -127,6 +127,30 @@
       (loop for (file complaints) in files
             do (is (null complaints) "~a: ~a" file complaints)))))
 
+(test refined-grasps-have-pictures
+  (with-folder (folder)
+    (let ((drawn 0) (moved 0))
+      (loop for (name . box) in (append (example-boxes) *extreme-boxes*)
+            for plan = (supergrip:plan box)
+            while (< moved 5)
+            do (let ((refinement (supergrip:refine plan :count 1 :regions 20)))
+                 (when refinement
+                   (let ((text (uiop:read-file-string
+                                (supergrip-draw:draw-refinement
+                                 refinement (in-folder folder "~a-refined.svg" name)))))
+                     (incf drawn)
+                     (is (search "where a finger was" text))
+                     (when (supergrip:refinement-moved-p refinement)
+                       (incf moved)
+                       (is (search (format nil "exact Q = ~,3f"
+                                           (supergrip:refinement-quality refinement))
+                                   text)))))))
+      (is (= 5 moved))
+      (let ((files (parsed folder)))
+        (is (= drawn (length files)))
+        (loop for (file complaints) in files
+              do (is (null complaints) "~a: ~a" file complaints))))))
+
 (test the-offset-picture-agrees-with-the-plan
   (loop for (across along) in supergrip-draw::+offset-boxes+
         do (multiple-value-bind (candidate plan)

@@ -80,23 +80,26 @@ NIL; HELD, how many weights are held; TIME, ms a box."
                       refined)
                 refinements)))))
 
+(defun way-parts (ways)
+  "Return for each of WAYS its qualities as parts of those of the fourth, the best unrefined ones, for the
+boxes where all ways have a grasp."
+  (let ((rows (remove-if-not (lambda (row) (and (notany #'null row) (plusp (fourth row))))
+                             (apply #'mapcar #'list (mapcar #'way-quality ways)))))
+    (loop for k below (length ways)
+          collect (loop for row in rows collect (/ (nth k row) (fourth row))))))
+
 (defun print-ways (ways)
-  "Print a line for each of WAYS; qualities are parts of those of the fourth, the best unrefined ones."
-  (let ((common (loop for qualities in (apply #'mapcar #'list (mapcar #'way-quality ways))
-                      collect (and (notany #'null qualities) (plusp (fourth qualities))))))
-    (format t "| way | candidates a box | boxes with a grasp | hold the weight | part of the best exact ~
-               Q: mean | 10 % are below | within 1 % or above |~%")
-    (format t "| --- | --- | --- | --- | --- | --- | --- |~%")
-    (dolist (way ways)
-      (let ((parts (loop for quality in (way-quality way)
-                         for best in (way-quality (fourth ways))
-                         for both in common
-                         when both collect (/ quality best))))
-        (format t "| ~a | ~,1f | ~d | ~d | ~,3f | ~,2f | ~d of ~d |~%" (way-name way)
-                (/ (reduce #'+ (way-tried way)) (length (way-tried way)))
-                (count-if #'identity (way-quality way)) (way-held way)
-                (/ (reduce #'+ parts) (length parts)) (of-sorted 0.1 parts)
-                (count-if (lambda (part) (>= part 0.99)) parts) (length parts))))))
+  "Print a line for each of WAYS."
+  (format t "| way | candidates a box | boxes with a grasp | hold the weight | part of the best exact ~
+             Q: mean | 10 % are below | within 1 % or above |~%")
+  (format t "| --- | --- | --- | --- | --- | --- | --- |~%")
+  (loop for way in ways
+        for parts in (way-parts ways)
+        do (format t "| ~a | ~,1f | ~d | ~d | ~,3f | ~,2f | ~d of ~d |~%" (way-name way)
+                   (/ (reduce #'+ (way-tried way)) (length (way-tried way)))
+                   (count-if #'identity (way-quality way)) (way-held way)
+                   (/ (reduce #'+ parts) (length parts)) (of-sorted 0.1 parts)
+                   (count-if (lambda (part) (>= part 0.99)) parts) (length parts))))
 
 (defun print-gains (refinements)
   "Print what REFINEMENTS have gained: of those that have a radius."
@@ -106,7 +109,7 @@ NIL; HELD, how many weights are held; TIME, ms a box."
                           for before = (supergrip:refinement-quality-before r)
                           when (plusp before) collect (/ (supergrip:refinement-quality r) before))))
     (flet ((line (what numbers)
-             (format t "| ~a |~{ ~,3f |~}~%" what
+             (format t "| ~a |~{ ~,2f |~}~%" what
                      (mapcar (lambda (share) (of-sorted share numbers)) '(0 0.25 0.5 0.75 0.9 1)))))
       (format t "| of ~d refined grasps | least | 25 % | median | 75 % | 90 % | greatest |~%"
               (length all))
@@ -138,3 +141,62 @@ NIL; HELD, how many weights are held; TIME, ms a box."
   (format t "~%| way | ms a box |~%| --- | --- |~%")
   (dolist (way ways)
     (format t "| ~a | ~,3f |~%" (way-name way) (way-time way))))
+
+;;; Refined grasps and a grid of placements
+
+(defun grid-ratio (refinement)
+  "Return by how much the best placement on a grid of up to 5,000 legal ones is better than REFINEMENT: the
+ratio of the radii, certified; and how many placements the grid has.  The cuts that were found may rule
+placements out: no placement is better than its cuts say."
+  (let* ((candidate (supergrip:refinement-candidate refinement))
+         (plan (supergrip:refinement-plan refinement))
+         (base (supergrip::knowledge-graspbase (supergrip:plan-knowledge plan)))
+         (supergrip::+most-scanned+ 5000))
+    (supergrip::with-replay (workspace candidate plan)
+      (multiple-value-bind (refining unit) (supergrip::start-refining candidate workspace base)
+        (let* ((freedom (supergrip::r-freedom refining))
+               (grid (loop with finest = nil
+                           for count from 2 to 16 by 2
+                           for grid = (supergrip::lattice freedom count)
+                           while (or grid (null finest))
+                           do (setf finest grid)
+                           finally (return finest)))
+               (ours (* unit (first (supergrip:refinement-radius refinement)))) (best ours))
+          (supergrip::ask refining (supergrip::placement-of
+                                    (supergrip:refinement-contacts refinement))
+                          0.01d0 1d-3 3000)
+          (dolist (placement grid)
+            (when (> (supergrip::cuts-radius refining placement) (* 1.001d0 best))
+              (let ((lower (nth-value 1 (supergrip::ask refining placement 2d-3 1d-4 30000))))
+                (when (and lower (> lower best)) (setf best lower)))))
+          (values (/ best ours) (length grid)))))))
+
+(defun print-grid (count)
+  "Print how the best placement on a grid compares with COUNT refined grasps, of four kinds of boxes."
+  (let ((ratios '()) (sizes '()) (times '()) (state (sb-ext:seed-random-state 7)))
+    (loop for number from 0
+          until (= (length ratios) count)
+          do (let* ((maker (nth (mod number 4) '(random-box table-box household-box rubber-box)))
+                    (plan (supergrip:plan (funcall maker state)))
+                    (start (get-internal-run-time))
+                    (refinement (supergrip:refine plan :count 1)))
+               (when (and refinement (supergrip:refinement-radius refinement)
+                          (plusp (or (first (supergrip:refinement-radius refinement)) 0)))
+                 (push (/ (- (get-internal-run-time) start) 1000d0) times)
+                 (multiple-value-bind (ratio size) (grid-ratio refinement)
+                   (push ratio ratios) (push size sizes)))))
+    (flet ((line (what numbers)
+             (format t "| ~a |~{ ~,3f |~}~%" what
+                     (mapcar (lambda (share) (of-sorted share numbers)) '(0 0.25 0.5 0.75 0.9 1)))))
+      (format t "| of ~d refined grasps | least | 25 % | median | 75 % | 90 % | greatest |~%" count)
+      (format t "| --- | --- | --- | --- | --- | --- | --- |~%")
+      (line "best of the grid / refined" ratios)
+      (line "placements in the grid" sizes)
+      (line "ms to refine" times))))
+
+;;; What the page shows
+
+(test the-page-on-the-study-has-what-comes-out
+  (let ((page (file-text "docs/study.md")))
+    (dolist (line (printed (print-study 6)))
+      (is (search line page) "docs/study.md lacks: ~a" line))))

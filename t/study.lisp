@@ -9,6 +9,7 @@
 ;;;; sbcl --script t/study.lisp lying                       what changes when the frame of a box is turned
 ;;;; sbcl --script t/study.lisp index                       u_w beside the exact radius
 ;;;; sbcl --script t/study.lisp refined [COUNT]              rules, trying everything, and refining
+;;;; sbcl --script t/study.lisp grid [COUNT]                 refined grasps against all places of a grid
 ;;;; sbcl --script t/study.lisp radii | python3 t/radii.py   exact radii by other means
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
@@ -429,6 +430,14 @@ another grasp, or one elsewhere on the box, is then the best."
                ~d have a grasp, ~d if POSE and CENTRE are left out; ~d answers differ~%"
             count greatest moved grasps upright askew)))
 
+(defun draw-if-possible (ways refinements)
+  "Draw the study into docs/study.svg, if the pictures can be loaded."
+  (when (ignore-errors (let ((*standard-output* (make-broadcast-stream)))
+                         (asdf:load-system "supergrip/draw")))
+    (load (project-file "t/study-picture.lisp"))
+    (format t "~%~a~%" (uiop:symbol-call :supergrip-test :draw-study ways refinements
+                                         (project-file "docs/study.svg")))))
+
 (destructuring-bind (&optional what . files) (rest sb-ext:*posix-argv*)
   (cond ((equal what "cases") (print-cases (sb-ext:seed-random-state 1)))
         ((equal what "sure") (print-sure 10000 (sb-ext:seed-random-state 1)))
@@ -442,7 +451,10 @@ another grasp, or one elsewhere on the box, is then the best."
                                     do (print-index kind (boxes-of maker 2000 1))))
         ((equal what "refined")
          (let ((count (parse-integer (or (first files) "1000"))))
-           (print-times (print-study count))))
+           (multiple-value-bind (ways refinements) (print-study count)
+             (print-times ways)
+             (draw-if-possible ways refinements))))
+        ((equal what "grid") (print-grid (parse-integer (or (first files) "200"))))
         ((equal what "radii") (print-radii 300 (sb-ext:seed-random-state 1)))
         ((equal what "compare") (apply #'print-comparison files))
         (t

@@ -13,7 +13,7 @@
    ;; the paper's figures
    #:draw-grasps #:draw-offset #:draw-system #:draw-session #:draw-gripper
    ;; pictures of one plan
-   #:draw-plan #:draw-quality #:draw-section
+   #:draw-plan #:draw-quality #:draw-section #:draw-refinement
    ;; reports
    #:report #:report-index
    ;; what can't be drawn

@@ -106,6 +106,9 @@ well it does."
     (key-closing 30 "opposed fingers") (key-blocked 20 "constrained"))
   "The signs of the key: how each is drawn, how wide it is, what it means.")
 
+(defun key-ghost (x y) (draw-circle (list x y) 5 "thin"))
+(defparameter +ghost-key+ '((key-ghost 12 "where a finger was")) "The sign that moved fingers add.")
+
 (defun key-have (x y) (draw-rectangle (- x 12) (- y 6) 24 12 "have"))
 (defun key-need (x y) (draw-line (list x (- y 8)) (list x (+ y 8)) "need"))
 

@@ -114,14 +114,29 @@ Z2."
   "Return the facts of its own that BOX has, each as \"FRAGILE (Z1)\"."
   (loop for fact in (box-facts box) collect (format nil "~{~a~^ ~}" fact)))
 
-(defun candidate-picture (candidate plan)
-  "Return the picture of CANDIDATE, which is possible in PLAN."
-  (let* ((subject (grasp-subject candidate plan :load (weight-text (plan-box plan))))
-         (cut (subject-cut-p subject)))
-    (with-picture (1000 680 (format nil "~a, ~a" (candidate-title candidate)
-                                    (box-text (plan-box plan)))
+(defun moved-slots (refinement)
+  "Return the slots of a subject whose fingers REFINEMENT has moved, a plist; nothing for NIL."
+  (and refinement
+       (list :found (refinement-contacts refinement)
+             :ghosts (mapcar (lambda (contact) (getf contact :position))
+                             (refinement-home refinement)))))
+
+(defun refinement-title (refinement)
+  (format nil "~a, exact Q = ~a, not ~a; at most ~a"
+          (candidate-grasp (refinement-candidate refinement))
+          (index-text (refinement-quality refinement))
+          (index-text (refinement-quality-before refinement))
+          (index-text (refinement-quality-bound refinement))))
+
+(defun candidate-picture (candidate plan &optional refinement)
+  "Return the picture of CANDIDATE, which is possible in PLAN, or of it as REFINEMENT has moved it."
+  (let* ((subject (apply #'grasp-subject candidate plan :load (weight-text (plan-box plan))
+                         (moved-slots refinement)))
+         (cut (subject-cut-p subject))
+         (title (if refinement (refinement-title refinement) (candidate-title candidate))))
+    (with-picture (1000 680 (format nil "~a, ~a" title (box-text (plan-box plan)))
                         (candidate-description candidate plan subject))
-      (draw-heading (candidate-title candidate)
+      (draw-heading title
                     (list (format nil "~a; ~a~@[; ~{~a~^, ~}~]" (box-text (plan-box plan))
                                   (matching-text (candidate-matching candidate))
                                   (fact-texts (plan-box plan))))
@@ -131,7 +146,7 @@ Z2."
         (draw-overview candidate plan '(24 448 630 144)))
       (draw-flat-views subject 670 72 306 528)
       (draw-text (fitting (fingers-text subject) "plain" 952) '(24 624))
-      (draw-key 24 652 952))))
+      (draw-key 24 652 952 :signs (if refinement (append +key+ +ghost-key+) +key+)))))
 
 (defun cant-picture (plan)
   "Return the picture of the box of PLAN, which can't be grasped."
@@ -162,3 +177,10 @@ Z2."
   "Draw the box of PLAN and its best grasp, or the box that can't be grasped, into FILE, an SVG
 picture: in three dimensions and from three sides, to scale.  Lengths in cm.  Returns FILE."
   (drawing ((need-plan plan)) (save-picture (plan-picture plan) file)))
+
+(defun draw-refinement (refinement file)
+  "Draw the grasp of REFINEMENT with its fingers where they are now, and rings where they were, into FILE, an
+SVG picture, as DRAW-PLAN does.  Returns FILE."
+  (let ((plan (refinement-plan refinement)))
+    (drawing (plan)
+      (save-picture (candidate-picture (refinement-candidate refinement) plan refinement) file))))

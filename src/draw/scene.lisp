@@ -440,6 +440,7 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
           (draw-weight subject)
           (draw-fingers subject :front)
           (draw-tips subject 0)
+          (draw-ghosts subject)
           (when palm-front (draw-palm subject) (draw-approach subject))))
       (unless (subject-palm subject)
         (draw-faces subject)
@@ -451,6 +452,13 @@ where there is room for more than numbers, also away from the MIDDLE of the othe
         (loop for (name place) in *face-names*
               do (occupy place)
                  (put-label name place "soft"))))))
+
+(defun draw-ghosts (subject)
+  "Draw where the fingers of SUBJECT were, and the way from there."
+  (loop for ghost in (subject-ghosts subject)
+        for contact in (subject-contacts subject)
+        do (draw-line (at ghost) (at (contact-position contact)) "thin")
+           (draw-circle (at ghost) 5 "thin")))
 
 (defun draw-tips (subject least)
   "Draw the fingertips on faces that are turned away (LEAST -1), or that are not (0)."
