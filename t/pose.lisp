@@ -392,6 +392,8 @@ proved of it."
              "the centre of mass lies outside the box: along Z it is 1.5 from the box centre, and the box ends at 1")
             ((:centre -6.1d0 0 0)
              "the centre of mass lies outside the box: along X it is -6.1 from the box centre, and the box ends at -6")
+            ((:centre 0 0 1.0000001d0)
+             "the centre of mass lies outside the box: along Z it is 1.0000001 from the box centre, and the box ends at 1")
             ((:centre 0 0) ,(format nil "(CENTRE 0 0) is not valid: ~a" takes))
             ((:centre (0 0 0)) ,(format nil "(CENTRE (0 0 0)) is not valid: ~a" takes))
             ((:centre 0 0 z) ,(format nil "(CENTRE 0 0 Z) is not valid: ~a" takes)))

@@ -67,10 +67,9 @@ complain."
                                               centre size)))))
     (when axis
       (let ((at (aref centre axis)))
-        (format nil "the centre of mass lies outside the box: ~a it is ~a from the box centre, ~
-                     and the box ends at ~a"
-                (axis-name axis) (exact-number-text at)
-                (exact-number-text (* (signum at) 0.5d0 (aref size axis))))))))
+        (destructuring-bind (at end) (number-texts at (* (signum at) 0.5d0 (aref size axis)))
+          (format nil "the centre of mass lies outside the box: ~a it is ~a from the box centre, ~
+                       and the box ends at ~a" (axis-name axis) at end))))))
 
 ;;; Gravity
 
