@@ -161,6 +161,7 @@ by the last octet and not before."
     (let ((depth 0) (string nil) (last (1- (length octets))))
       (and (plusp last)
            (not (find 10 octets))
+           (not (find 30 octets))       ; a mark between records, as before an object in a box
            (= (aref octets 0) open)
            (loop for place from 0 to last
                  for octet = (aref octets place)
