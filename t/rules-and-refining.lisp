@@ -122,8 +122,8 @@ boxes where all ways have a grasp."
       (line "bound of Q / Q refined"
             (loop for r in all
                   collect (/ (supergrip:refinement-quality-bound r) (supergrip:refinement-quality r))))
-      (format t "~%Fingers moved in ~d of ~d. The search from the plan's own places alone came within 2 % ~
-                 of the radius in the end in ~d of ~d.~%"
+      (format t "~%Fingers moved in ~d of ~d.~%The search from the plan's own places alone came ~
+                 within 2 % of the final radius in ~d of ~d.~%"
               (count-if #'supergrip:refinement-moved-p all) (length all)
               (loop for r in all for radius in radii
                     count (>= (supergrip:refinement-radius-nearby r) (* 0.98 radius)))
