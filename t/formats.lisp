@@ -120,6 +120,27 @@ share."
         (is (= 3 (count "---" (lines-of (written "moveit")) :test #'string=)))
         (is (= 3 (length (lines-of (written "graspgen")))))))))
 
+(test palms-inside-the-box-are-told-of
+  (let* ((knowledge (supergrip:load-knowledge
+                     :gripper (project-file "examples/hands/robotiq-3-finger.lisp")))
+         (tall '((size 20 8.5 30) (weight 0.08) (u 0.6) (v 0.32) (constrained z2)
+                 (force-needed (0.1 0.1 0.1 0.2 0.2 0.2)) (velocity-needed (0 0 0 0 0 0))))
+         (plan (supergrip:plan tall :knowledge knowledge))
+         (pencil (supergrip:plan (paper-box) :knowledge knowledge)))
+    (dolist (candidate (supergrip:plan-possible plan))
+      ;; The palm's own place, which the formats write, against the face that it is over.
+      (let* ((axis (position-if-not #'zerop (supergrip:candidate-approach candidate)))
+             (hand (supergrip:candidate-hand candidate plan))
+             (place (abs (* 100 (nth axis (supergrip::palm-position hand candidate plan))))))
+        (is (close-to (max 0 (- (/ (nth axis '(20 8.5 30)) 2) place))
+                      (supergrip::palm-inside candidate plan)))))
+    (is (search " inside the box, up to " (supergrip::palms-inside-text
+                                           (supergrip:plan-possible plan) plan)))
+    (is (null (supergrip::palms-inside-text (supergrip:plan-possible pencil) pencil)))
+    (is (null (supergrip::palms-inside-text (supergrip:plan-possible (supergrip:plan tall))
+                                            (supergrip:plan tall)))
+        "the shipped gripper names no PALM-DEPTH")))
+
 (test models-have-safe-names-of-their-own
   (let ((names '("a b" "A/B" "../../x" "" "..." "a-b-2" "café" "a b")))
     (with-text-file (boxes (format nil "~{((NAME ~s) ~a~%~}"

@@ -41,6 +41,17 @@
   (is (null (gripper-reports "(SETQ GRIPPER '(DIST-PINCH 8.5))"))
       "a helper that no grasp calls uses FINGER-SPREAD"))
 
+(test what-may-be-misspelt-or-in-mm-is-warned-of
+  (is (equal '("jaw.lisp:1: warning: GRIPPER: nothing uses PALM-DEPHT (did you mean PALM-DEPTH?)")
+             (gripper-reports "(SETQ GRIPPER '(DIST-PINCH 8.5 PALM-DEPHT 8))")))
+  (is (null (gripper-reports "(SETQ GRIPPER '(DIST-PINCH 8.5 PALM-DEPHT 8 PALM-DEPTH 8))"))
+      "what is there can't be meant")
+  (is (null (gripper-reports "(SETQ GRIPPER '(DIST-PINCH 8.5 FINGR-WIDTH 1))"
+                             :grasps (clamp-text "FINGR-WIDTH")))
+      "a grasp uses it")
+  (is (equal '("jaw.lisp:1: warning: GRIPPER: DIST-PINCH is 85 cm: dimensions count in cm, not in mm")
+             (gripper-reports "(SETQ GRIPPER '(DIST-PINCH 85))"))))
+
 (test a-dimension-that-is-missing-is-named-with-its-users
   (flet ((missing (name users line)
            (format nil "jaw.lisp:1: GRIPPER: ~a is missing: ~a; add it with your hand's number, as  ~a"
@@ -165,8 +176,8 @@ of a name and a text."
       (with-text-file (other "(SETQ GRIPPER '(MODEL \"Jaw 2\" DIST-PINCH 8))")
         (is (equal '("Jaw 2" 1) (names :hand hand :gripper other)) "a file that is named wins")))
     (delete-file (concatenate 'string hand "gripper.lisp"))
-    (is (equal (list (format nil "~agripper.lisp: this file can't be opened: No such file or directory"
-                             hand))
+    (is (equal (list (format nil "~agrasps.lisp: GRIPPER: there is no (SETQ GRIPPER '(...)) here, and no ~
+                                  gripper file is given" hand))
                (problem-texts (lambda () (supergrip:load-knowledge :hand hand)))))))
 
 (test a-folder-may-lack-rules-and-grasps

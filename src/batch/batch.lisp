@@ -268,6 +268,9 @@ and whether they are ours."
   (let ((writer (find-writer (batch-format batch))))
     (unless (plan-best plan)
       (tell-of-none (writer-kind writer) (box-name (plan-box plan)) line (plan-reason plan)))
+    (let ((palms (palms-inside-text (best-grasps plan (batch-all batch)) plan)))
+      (when palms
+        (tell "supergrip: line ~d~@[, ~s~]: ~a" line (box-name (plan-box plan)) palms)))
     (written-plan writer plan (batch-all batch))))
 
 (defun tell-of-none (kind name line reason)

@@ -83,6 +83,9 @@ value may have a list of their own.  FORM holds LIST, and stands at PLACE."
     (make-gripper :dimensions (nreverse dimensions) :names names :model model :form form
                   :place place)))
 
+(defparameter +widest-opening+ 50d0
+  "An opening, in cm, that no hand is likely to exceed; one that does may be meant in mm.")
+
 (defun check-gripper (dimensions form)
   "Complain of DIMENSIONS that contradict each other."
   (flet ((size (name) (cdr (assoc name dimensions :test #'string=)))
@@ -98,6 +101,9 @@ value may have a list of their own.  FORM holds LIST, and stands at PLACE."
         (compare "FINGER-WIDTH is ~a, more than FINGER-SPREAD, ~a" width spread))
       (when (and spread pinch (> spread pinch))
         (compare "FINGER-SPREAD is ~a, more than DIST-PINCH, ~a" spread pinch))
+      (when (and pinch (> pinch +widest-opening+))
+        (complain form '(:warning "DIST-PINCH is ~a cm: dimensions count in cm, not in mm")
+                  (number-text pinch)))
       (when (eql 0d0 (size "FINGER-FORCE"))
         (complain form "FINGER-FORCE is 0; a finger that exerts no force holds nothing")))))
 
@@ -166,11 +172,22 @@ as a text, if they are known; as the threshold of the ASSERTION, a name, or in a
     (declare (ignore parts))
     (format nil "~a ~a~@[ ; ~a~]" name (number-text number) meaning)))
 
+(defun warn-of-misspelt-dimensions (gripper uses rows)
+  "Warn of each name in GRIPPER that nothing uses and that is like one of ROWS that GRIPPER lacks."
+  (let ((lacking (set-difference (mapcar #'first rows) (gripper-names gripper) :test #'string=)))
+    (loop for (name) in (gripper-dimensions gripper)
+          for hint = (suggestion name lacking)
+          unless (or (assoc name rows :test #'string=)
+                     (find name uses :key #'dimension-use-dimension :test #'string=)
+                     (equal hint ""))
+            do (complain *form* '(:warning "nothing uses ~a~a") name hint))))
+
 (defun check-dimensions (gripper uses rows)
-  "Complain of each dimension that GRIPPER lacks, and of which there is one among USES.  ROWS are those
-of all known dimensions."
+  "Complain of each dimension that GRIPPER lacks, and of which there is one among USES; warn of those
+that may be misspelt.  ROWS are those of all known dimensions."
   (when (gripper-form gripper)
     (let ((*form* (gripper-form gripper)) (*subject* "GRIPPER"))
+      (warn-of-misspelt-dimensions gripper uses rows)
       (loop for (name) in rows
             for (first . others) = (remove name uses :key #'dimension-use-dimension
                                                      :test-not #'string=)

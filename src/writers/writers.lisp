@@ -70,6 +70,28 @@ the gripper, 0 if it has none, behind the grasp centre."
     (metres (mapcar (lambda (place part) (- place (* depth part)))
                     (getf hand :position) (candidate-approach candidate)))))
 
+(defun palm-inside (candidate plan)
+  "Return how deep, in cm, the palm's frame of CANDIDATE of PLAN lies in the box; 0 if it does not, or
+if the gripper does not name PALM-DEPTH."
+  (let ((approach (candidate-approach candidate)) (depth (gripper-number plan "PALM-DEPTH" 0d0)))
+    (if (zerop depth)
+        0d0
+        (max 0d0 (- (loop for size in (box-size (plan-box plan))
+                          for centre in (candidate-offset candidate)
+                          for part in approach
+                          sum (* part (+ (* 0.5d0 size part) centre)))
+                    depth)))))
+
+(defun palms-inside-text (grasps plan)
+  "Return in words how many of GRASPS of PLAN have their palm in the box, or NIL if none has."
+  (let* ((depths (loop for grasp in grasps collect (palm-inside grasp plan)))
+         (inside (count-if (lambda (depth) (> depth 1d-6)) depths)))
+    (when (plusp inside)
+      (format nil "~d of ~d palms ~:*~*~[~;lies~:;lie~] inside the box, up to ~a cm deep: fingers reach ~
+                   deeper than the PALM-DEPTH of the gripper, ~a cm"
+              inside (length grasps) inside (number-text (reduce #'max depths))
+              (number-text (gripper-number plan "PALM-DEPTH" 0d0))))))
+
 (defun grasp-words (candidate)
   "Return the name of the grasp of CANDIDATE, and its matching."
   (format nil "~a ~{~a~^ ~}" (candidate-grasp candidate) (candidate-matching candidate)))
