@@ -53,7 +53,8 @@ python3."
                 (supergrip::mjcf-text (supergrip:plan (changed-box :weight 0)))))))
 
 (test fingers-press-as-hard-as-they-can-and-hold-the-weight
-  "By statics alone: what the fingers press holds the weight, and none can press more than its share."
+  "By statics alone: what the fingers press holds the weight, and none can press more than its
+share."
   (let ((checked 0))
     (for-random-boxes (box 40 45)
       (let* ((plan (supergrip:plan box :index :exact)) (best (supergrip:plan-best plan)))
@@ -71,8 +72,9 @@ python3."
     (is (< 5 checked))
     (is (close-to '(0.5d0 0.5d0 1d0)
                   (let ((plan (pencil-plan)))
-                    (supergrip::pressing (supergrip:candidate-contacts (supergrip:plan-best plan) plan)
-                                         (supergrip:plan-box plan) '(0 0 0.2d0 0 0 0)))
+                    (supergrip::pressing
+                     (supergrip:candidate-contacts (supergrip:plan-best plan) plan)
+                     (supergrip:plan-box plan) '(0 0 0.2d0 0 0 0)))
                   1d-2))))
 
 (test confidence-is-the-certified-radius-in-exact-mode
@@ -82,7 +84,18 @@ python3."
       (is (= (confidence exact) (supergrip:candidate-force-radius (supergrip:plan-best exact))))
       (is (= 1 (confidence (supergrip:plan (changed-box :force-needed '(0.1d0 0 0 0 0 0))
                                            :index :exact))))
-      (is (close-to (/ 0.86d0 1.86d0) (confidence paper))))))
+      (is (close-to (/ 0.86d0 1.86d0) (confidence paper)))
+      (let* ((knowledge (text-knowledge (file-text "rules.lisp")
+                                        (replace-once (file-text "grasps.lisp") "'(FINGER-LENGTH"
+                                                      "'(FINGER-FORCE 10 FINGER-LENGTH")))
+             (absolute (supergrip:plan '((:units :cm :n) (:size 12 2 2) (:weight 2) (:u 0.8d0)
+                                         (:v 0.2d0) (:constrained :z2 :x1)
+                                         (:force-needed (10 8 8 3 10 10))
+                                         (:velocity-needed (0 0.8d0 0.8d0 0 0.8d0 0.8d0)))
+                                       :knowledge knowledge)))
+        (is (close-to (confidence exact) (confidence absolute)))
+        (is (search "mass=\"0.203" (supergrip::mjcf-text absolute)) "2 N")
+        (is (search "ctrlrange=\"0 10.0\"" (supergrip::mjcf-text absolute)))))))
 
 (test a-box-without-a-grasp-is-told-and-its-document-is-empty
   (let ((pencil (one-line *pencil*)))

@@ -44,8 +44,7 @@
       (multiple-value-bind (contacts u v) (cases-of best plan)
         (multiple-value-bind (upper lower worst)
             (supergrip:exact-radius contacts u v need :coupled t
-                                    :gravity (coerce (supergrip::gravity-on (supergrip:plan-box plan))
-                                                     'list))
+                                    :gravity (supergrip:box-gravity (supergrip:plan-box plan)))
           (declare (ignore upper))
           (values lower worst))))))
 
@@ -57,8 +56,9 @@
         when (plusp need) minimize (/ (- has load) need)))
 
 (defun directions (need worst)
-  "Return the wrenches of the task ellipsoid NEED that are tried, each with its name: along and about
-the axes, both ways, and the one against which the contacts have least to spare in the motion WORST."
+  "Return the wrenches of the task ellipsoid NEED that are tried, each with its name: along and
+about the axes, both ways, and the one against which the contacts have least to spare in the motion
+WORST."
   (append
    (loop for axis below 6
          for n in need
@@ -74,7 +74,7 @@ the axes, both ways, and the one against which the contacts have least to spare 
   "Return how hard the fingers of BEST of PLAN press to exert WRENCH beside the weight; of what they
 can't exert, the largest part that they can, if they can hold the weight."
   (let ((contacts (supergrip:candidate-contacts best plan)) (box (supergrip:plan-box plan))
-        (gravity (coerce (supergrip::gravity-on (supergrip:plan-box plan)) 'list)))
+        (gravity (supergrip:box-gravity (supergrip:plan-box plan))))
     (flet ((forces (part)
              (supergrip::pressing contacts box
                                   (mapcar (lambda (w g) (- (* part w) g)) wrench gravity))))
@@ -129,8 +129,9 @@ can't exert, the largest part that they can, if they can hold the weight."
                                                :external-format :utf-8)
                        (write-string (supergrip::mjcf-text plan) out))
                      (put-case found best plan radius worst file))))))
-    (format *error-output* "~d boxes, seed ~d: ~d with a grasp, ~d with a radius above 1.05~%" planned
-            seed grasped found)))
+    (format *error-output* "~d boxes, seed ~d: ~d with a grasp, ~d with a radius above 1.05~%"
+            planned seed grasped found)))
 
 (destructuring-bind (count seed index directory) (rest sb-ext:*posix-argv*)
-  (run (parse-integer count) (parse-integer seed) (intern (string-upcase index) :keyword) directory))
+  (run (parse-integer count) (parse-integer seed) (intern (string-upcase index) :keyword)
+       directory))

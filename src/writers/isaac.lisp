@@ -5,14 +5,21 @@
 
 (in-package :supergrip)
 
+(defun borne-share (candidate plan)
+  "Return how many times the forces needed CANDIDATE of PLAN surely bears, in exact mode and where
+needs are absolute; else NIL.  NIL where no force is needed."
+  (cond ((null (candidate-force-radius candidate)) nil)
+        ((eq (plan-index plan) :exact) (candidate-force-radius candidate))
+        ((absolute-units-p (%box-units (plan-box plan)))
+         (or (nth-value 1 (candidate-exact-radius candidate plan))
+             (candidate-sure candidate plan)))))
+
 (defun confidence (candidate plan)
-  "Return how sure CANDIDATE of PLAN is, 0 to 1: in exact mode, and where the needs are absolute,
-the share of the forces needed that it surely bears; else Q/(1+Q), which orders grasps as Q does."
-  (let* ((demand (demand-on candidate plan)) (quality (candidate-quality candidate))
-         (radius (cond (demand (demand-surely demand))
-                       ((eq (plan-index plan) :exact) (candidate-force-radius candidate)))))
-    (if radius
-        (max 0d0 (min 1d0 radius))
+  "Return how sure CANDIDATE of PLAN is, 0 to 1: the share of the forces needed that it surely
+bears, if BORNE-SHARE tells it; else Q/(1+Q), which orders grasps as Q does."
+  (let ((share (borne-share candidate plan)) (quality (candidate-quality candidate)))
+    (if share
+        (min 1d0 (max 0d0 share))
         (/ quality (+ 1d0 quality)))))
 
 (defun put-isaac-grasp (candidate plan number out)

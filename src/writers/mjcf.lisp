@@ -32,9 +32,9 @@
                 collect (append normal (cross-product (getf contact :position) normal)))))
 
 (defun press-at-least (contacts box least wrench)
-  "Return the normal forces with which the fingers at CONTACTS exert WRENCH on BOX if each presses with
-at least LEAST, 0 to below 1, and uses no friction of that; NIL if they can't.  Friction force and
-torque are coupled, as MuJoCo has them."
+  "Return the normal forces with which the fingers at CONTACTS exert WRENCH on BOX if each presses
+with at least LEAST, 0 to below 1, and uses no friction of that; NIL if they can't.  Friction force
+and torque are coupled, as MuJoCo has them."
   (let* ((share (- 1d0 least))          ; what is left of each finger's force
          (rest (mapcar (lambda (whole pressed) (/ (- whole (* least pressed)) share))
                        wrench (normals-wrench contacts)))
@@ -48,8 +48,8 @@ torque are coupled, as MuJoCo has them."
                                                                    (getf contact :normal)))))))))
 
 (defun pressing (contacts box wrench)
-  "Return the normal forces, 0 to 1, with which the fingers at CONTACTS exert WRENCH on BOX, the finger
-that presses least as hard as it can; NIL if they can't exert it."
+  "Return the normal forces, 0 to 1, with which the fingers at CONTACTS exert WRENCH on BOX, the
+finger that presses least as hard as it can; NIL if they can't exert it."
   (let ((best (press-at-least contacts box 0d0 wrench)) (low 0d0) (high 1d0))
     (when best
       (loop repeat 8
@@ -81,8 +81,8 @@ that presses least as hard as it can; NIL if they can't exert it."
             (spaced (list (box-friction box) (/ (box-soft-friction box) 100d0))))))
 
 (defun put-mass-centre (box mass out)
-  "Write to OUT how MASS, in kg, lies in BOX if its centre of mass is not its centre: as an even box of
-this size turns about its centre."
+  "Write to OUT how MASS, in kg, lies in BOX if its centre of mass is not its centre: as an even box
+of this size turns about its centre."
   (let ((centre (metres (box-centre box))) (sizes (metres (box-size box))))
     (unless (every #'zerop centre)
       (format out "      <inertial pos=\"~a\" mass=\"~a\" diaginertia=\"~a\"/>~%" (spaced centre)
@@ -123,7 +123,7 @@ without weight it is as of a hundredth of a finger force."
 the forces of the fingers that hold the weight, the weakest as great as can be."
   (let* ((best (plan-best plan)) (box (plan-box plan)) (contacts (candidate-contacts best plan))
          (newtons (or (finger-newtons plan) 1d0)) (limit (number-in-text newtons))
-         (forces (pressing contacts box (map 'list #'- (gravity-on box)))))
+         (forces (pressing contacts box (mapcar #'- (box-gravity box)))))
     (with-output-to-string (out)
       (put-model-head plan best newtons line out)
       (format out "  <worldbody>~%")
