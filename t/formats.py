@@ -3,10 +3,12 @@
 
     python3 t/formats.py [--boxes N] [--seed N] [--program PATH]
 
-Random boxes go through the program in each format.  PyYAML reads isaac and moveit, json and numpy read
-graspgen, and MuJoCo's loader reads the models of --mjcf; every field and its type is checked.  Then
-the poses are compared with each other and with those of the records, and the pose of each grasp is
-used as a robot would: it must carry the contacts from the hand's frame to where the record has them.
+Random boxes go through the program in each format.  PyYAML reads isaac and moveit, json and numpy
+read graspgen, and MuJoCo's loader reads the models of --mjcf; every field and its type is checked.
+Then the poses are compared with each other and with those of the records, and the pose of each
+grasp is used as a robot would: it must carry the contacts from the hand's frame to where the record
+has them.  Some boxes go through it again with a gripper that has PALM-DEPTH and FINGER-FORCE, in cm
+and in mm and N.
 What is not there (pip install numpy pyyaml mujoco) is left out, and said.  PATH is the executable
 that src/build.lisp makes; without it examples/batch.lisp is run.
 """
@@ -40,11 +42,13 @@ except ImportError:
 NEAR = 1e-9
 DEPTH, FORCE = 7.5, 15.0    # cm and N, of the gripper with which all is done again
 NAMES = [None, "pencil", 'a "quoted" one', "colon: comma, #hash", "two\nlines", "- dash", "~", "no",
-         "café 箱 😀", "..", "../../etc/passwd", "a/b\\c", "{x: 1}", "12", "PENCIL", "", " ", "&amp;<b>--",
-         "tab\tbell\x07del\x7fnel\x85ls\u2028bom\ufeff", "%TAG", "'", "x" * 60, "null", "---", "@`|>*!"]
+         "café 箱 😀", "..", "../../etc/passwd", "a/b\\c", "{x: 1}", "12", "PENCIL", "", " ",
+         "&amp;<b>--", "tab\tbell\x07del\x7fnel\x85ls\u2028bom\ufeff", "%TAG", "'", "x" * 60,
+         "null", "---", "@`|>*!"]
 # Closing and approach of each grasp along N O A; None where the sizes of the box decide.
-CLOSING = {"PINCH-2-PARALLEL": (1, 0, 0), "PINCH-3-PARALLEL": (1, 0, 0), "PINCH-3-C-SHAPE": (1, 0, 0),
-           "PINCH-3-U-SHAPE": (0, 1, 0), "PINCH-2-ADJACENT": (-1, 0, 0),
+CLOSING = {"PINCH-2-PARALLEL": (1, 0, 0), "PINCH-3-PARALLEL": (1, 0, 0),
+           "PINCH-3-C-SHAPE": (1, 0, 0), "PINCH-3-U-SHAPE": (0, 1, 0),
+           "PINCH-2-ADJACENT": (-1, 0, 0),
            "PINCH-3-ADJACENT": (-1, 0, 0), "PINCH-3-CORNER": None}
 APPROACH = {"PINCH-2-ADJACENT": (0, -1, 0), "PINCH-3-ADJACENT": (0, -1, 0),
             "PINCH-3-CORNER": (0, 0, -1)}
@@ -82,6 +86,25 @@ def random_box(rng, number):
     if number % 12 == 11:
         del box["weight"]
     return box
+
+
+def in_mm_and_n(box):
+    """The same box in millimetres and newtons, a finger being able to press with FORCE."""
+    box = dict(box, units=["mm", "N"], size=[10 * size for size in box["size"]], v=10 * box["v"],
+               force_needed=[n * FORCE * (1 if i < 3 else 10)
+                             for i, n in enumerate(box["force_needed"])])
+    if "weight" in box:
+        box["weight"] *= FORCE
+    if "pose" in box:
+        box["pose"] = dict(box["pose"], position=[10 * x for x in box["pose"]["position"]])
+    if "centre" in box:
+        box["centre"] = [10 * x for x in box["centre"]]
+    return box
+
+
+def metre(box):
+    """How many metres the unit of lengths of a box is."""
+    return 0.001 if "units" in box else 0.01
 
 
 def run(program, boxes, *options):
@@ -134,7 +157,7 @@ def check_hand(grasp, size):
         across = contacts[1] - contacts[0]
         across -= turn[:, 2] * (across @ turn[:, 2])
         near(turn[:, 0], across / np.linalg.norm(across), name, "closing")
-    # From the grasp's frame to the hand's, by what docs/formats.md says of each grasp; then by the pose.
+    # From the grasp's frame to the hand's, by what docs/batch.md says; then by the pose.
     x, z = noa.T @ turn[:, 0], np.array(APPROACH.get(name, (0, 0, 1)))
     x = np.array(CLOSING[name]) if CLOSING[name] else x
     in_hand = ((contacts - place) @ noa) @ np.array([x, np.cross(z, x), z]).T
@@ -144,7 +167,7 @@ def check_hand(grasp, size):
     check((hand["opening"] is not None) == bool(opposed), "opening", hand["opening"])
     if opposed:
         one, other = (np.mean([c["position"] for c in grasp["contacts"] if c["surface"] == face],
-                              axis=0) for face in (opposed[0][0]["surface"], opposed[0][1]["surface"]))
+                              axis=0) for face in (side["surface"] for side in opposed[0]))
         near(np.abs((one - other) @ turn[:, 0]), hand["opening"], "opening")
         near(np.linalg.norm(one - other), hand["opening"], "not on the closing line")
         near(hand["opening"], size["XYZ".index(opposed[0][0]["surface"][0])])
@@ -186,7 +209,8 @@ def isaac_poses(text, boxes):
     documents = list(yaml.load_all(text, Loader=LOADER))
     check(len(documents) == len(boxes), len(documents), "documents")
     for document, box in zip(documents, boxes):
-        check(list(document) == ["format", "format_version", "object_frame", "gripper_frame", "grasps"])
+        check(list(document) == ["format", "format_version", "object_frame", "gripper_frame",
+                                 "grasps"])
         check(document["format"] == "isaac_grasp" and document["format_version"] == 1.0)
         typed(document["gripper_frame"], str, "gripper_frame")
         check(document["object_frame"] == box.get("name", "box"), document["object_frame"])
@@ -215,8 +239,9 @@ def moveit_poses(text, boxes, answers, force):
             check(name is None or document["id"].startswith(name + ": "), document["id"])
             check(document["pre_grasp_approach"]["direction"]["header"]["frame_id"] == (name or ""))
             check(document["max_contact_force"] == force)
-            near(list(document["pre_grasp_approach"]["direction"]["vector"].values()), grasp["approach"])
-            near(list(document["post_grasp_retreat"]["direction"]["vector"].values()), -down(box))
+            for field, way in (("pre_grasp_approach", grasp["approach"]),
+                               ("post_grasp_retreat", -down(box))):
+                near(list(document[field]["direction"]["vector"].values()), way, field)
             pose = document["grasp_pose"]["pose"]
             poses.append((list(pose["position"].values()),
                           rotation(list(pose["orientation"].values())), document["grasp_quality"]))
@@ -230,7 +255,8 @@ def graspgen_poses(text, boxes):
     for line in lines:
         data = json.loads(line)
         check(list(data) == ["object", "grasps"] and list(data["object"]) == ["file", "scale"])
-        check(re.fullmatch(r"[a-z0-9-]+\.obj", data["object"]["file"]) and data["object"]["scale"] == 1)
+        check(re.fullmatch(r"[a-z0-9-]+\.obj", data["object"]["file"]))
+        check(data["object"]["scale"] == 1)
         check(list(data["grasps"]) == ["transforms", "object_in_gripper"])
         matrices = np.array(data["grasps"]["transforms"]).reshape(-1, 4, 4)
         check(data["grasps"]["object_in_gripper"] == [True] * len(matrices))
@@ -244,21 +270,22 @@ def graspgen_poses(text, boxes):
 def check_model(path, answer, box, force):
     """Load a model by MuJoCo, and compare it with the record and the box."""
     model = mujoco.MjModel.from_xml_path(str(path))
-    near(model.geom("box").size, np.array(box["size"]) / 200)
+    unit = metre(box)
+    near(model.geom("box").size, np.array(box["size"]) * unit / 2)
     check(model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC)
     weight = model.body("box").mass[0] * np.linalg.norm(model.opt.gravity)
-    near(weight / force, box["weight"])
+    near(weight, box["weight"] * (1 if "units" in box else force))
     if box["weight"]:
         near(model.opt.gravity / np.linalg.norm(model.opt.gravity), down(box))
-    near(model.body("box").ipos, np.array(box.get("centre", [0, 0, 0])) / 100)
+    near(model.body("box").ipos, np.array(box.get("centre", [0, 0, 0])) * unit)
     check(model.nu == len(answer["contacts"]))
     for contact in answer["contacts"]:
         finger, slider = model.geom(contact["finger"]), model.joint(contact["finger"])
         check(model.geom_condim[finger.id] == 4)
-        near(finger.friction[:2], [max(box["u"], 1e-5), box["v"] / 100])
+        near(finger.friction[:2], [max(box["u"], 1e-5), box["v"] * unit])
         near(slider.axis, contact["normal"])
         near(model.body(contact["finger"]).pos + finger.size[0] * slider.axis,
-             np.array(contact["position"]) / 100)
+             np.array(contact["position"]) * unit)
         near(model.actuator(contact["finger"]).ctrlrange, [0, force])
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("hold").id)
@@ -290,11 +317,11 @@ def compare(program, boxes, depth, force):
     check(len(answers) == len(boxes))
     expected = []
     for answer, box in zip(answers, boxes):
-        check(answer["status"] == "grasp" or (answer["hand"] is None and answer["alternatives"] is None))
+        check(answer["status"] == "grasp" or answer["hand"] is answer["alternatives"] is None)
         poses = []
         for grasp in answer["alternatives"] or []:
             place, turn = check_hand(grasp, box["size"])
-            poses.append(((place - depth * turn[:, 2]) / 100, turn, grasp["quality"]))
+            poses.append((place * metre(box) - depth / 100 * turn[:, 2], turn, grasp["quality"]))
         expected.append(poses)
         if poses:
             check(answer["hand"] == answer["alternatives"][0]["hand"])
@@ -306,12 +333,12 @@ def compare(program, boxes, depth, force):
     for name, read in streams.items():
         text, errors = run(program, boxes, "--format", name)
         check(errors.count("no grasp for") == nothing, name, errors)
-        for poses, others in zip(expected, read(text), strict=True):
+        for poses, others, box in zip(expected, read(text), boxes, strict=True):
             check(len(poses) == len(others), name, len(poses), len(others))
             for (place, turn, quality), (there, turned, worth) in zip(poses, others):
                 near(place, there, name)
                 near(turn, turned, name)
-                if name == "isaac":
+                if name == "isaac" and "units" not in box:
                     near(worth, quality / (1 + quality))
                 if name == "moveit":
                     near(worth, quality)
@@ -342,7 +369,10 @@ def main():
         file.write(text.replace("'(FINGER-LENGTH", f"'(PALM-DEPTH {DEPTH} FINGER-FORCE {FORCE} "
                                                    "FINGER-LENGTH", 1))
         file.flush()
-        compare([*program, "--grasps", file.name], boxes[:max(60, options.boxes // 10)], DEPTH, FORCE)
+        program += ["--grasps", file.name]
+        compare(program, boxes[:max(24, options.boxes // 10)], DEPTH, FORCE)
+        compare(program, [in_mm_and_n(box) for box in boxes[:max(24, options.boxes // 20)]], DEPTH,
+                FORCE)
     print(f"{options.boxes} boxes, seed {options.seed}: {grasps} grasps and {models} models agree")
 
 

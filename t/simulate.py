@@ -3,15 +3,15 @@
 
     python3 t/simulate.py [COUNT] [--seed N] [--index exact|paper]... [--workers N] [--verbose]
 
-Random boxes are planned, until COUNT best grasps have a certified force radius above 1.05; friction
-force and torque of a fingertip share its friction, as MuJoCo has it.  Each grasp is simulated in the
-model that --mjcf writes: under gravity alone, then under the task at 90 % of the certified radius, and
-at 90 % of u_w, in each direction along and about the axes that the task needs, and in the worst one.
-The fingers press as statics says, and know nothing of what happens.  A grasp holds if the box stays:
-after load and forces have grown for 0.3 s and rested for 0.2 s, it moves less than 1 mm and turns less
-than 0.02 rad in the next second.
-Needs MuJoCo and numpy: pip install mujoco.  The exit status is 1 if a grasp drops its box, or if fewer
-than 97 % hold at 90 % of the radius.
+Random boxes are planned, until COUNT best grasps have a certified force radius above 1.05;
+friction force and torque of a fingertip share its friction, as MuJoCo has it.  Each grasp is
+simulated in the model that --mjcf writes: under gravity alone, then under the task at 90 % of the
+certified radius, and at 90 % of u_w, in each direction along and about the axes that the task
+needs, and in the worst one. The fingers press as statics says, and know nothing of what happens.
+A grasp holds if the box stays: after load and forces have grown for 0.3 s and rested for 0.2 s,
+it moves less than 1 mm and turns less than 0.02 rad in the next second. Needs MuJoCo and numpy:
+pip install mujoco.  The exit status is 1 if a grasp drops its box, or if fewer than 97 % hold at
+90 % of the radius.
 """
 
 import argparse
@@ -31,7 +31,7 @@ except ImportError:
 
 ROOT = Path(__file__).resolve().parent.parent
 RAMP, SETTLE, TEST = 0.3, 0.2, 1.0          # seconds: load and forces grow, rest, and are watched
-STAY, TURN = 1e-3, 0.02                     # metres and radians by which a box that is held may move
+STAY, TURN = 1e-3, 0.02              # metres and radians by which a box that is held may move
 
 
 def drift(model, press, load):
@@ -64,7 +64,8 @@ def judge(line):
     hold = model.key("hold").ctrl
     case["gravity"] = [("gravity", *drift(model, hold, [0] * 6))]
     for key in ("task", "index"):
-        case[key] = [(load["name"], *drift(model, load["press"], load["load"])) for load in case[key]]
+        case[key] = [(load["name"], *drift(model, load["press"], load["load"]))
+                     for load in case[key]]
     return case
 
 
