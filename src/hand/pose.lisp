@@ -100,9 +100,17 @@ centre."
 
 (defun gravity-on (box)
   "Return the wrench of the weight of BOX about its centre, an array of six."
-  (let* ((force (loop for part across (%box-down box) collect (* (%box-weight box) part)))
-         (torque (cross-product (coerce (%box-mass-centre box) 'list) force)))
-    (map 'six (lambda (number) (+ 0d0 number)) (append force torque))))
+  (let ((wrench (make-array 6 :element-type 'double-float))
+        (centre (%box-mass-centre box)))
+    (flet ((torque (i j k)
+             (setf (aref wrench (+ 3 i)) (+ 0d0 (- (* (aref centre j) (aref wrench k))
+                                                   (* (aref centre k) (aref wrench j)))))))
+      (dotimes (axis 3)
+        (setf (aref wrench axis) (+ 0d0 (* (%box-weight box) (aref (%box-down box) axis)))))
+      (torque 0 1 2)
+      (torque 1 2 0)
+      (torque 2 0 1))
+    wrench))
 
 (defun box-gravity (box)
   "Return the wrench of the weight of BOX about the box centre, a list of six: a force along X Y Z,

@@ -76,9 +76,10 @@ into words in the units of the box."
   (let ((memory (gensym)) (the-plan (gensym)))
     `(without-float-traps
        (let* ((,the-plan (need-plan ,plan))
-              (,memory (start-plan (plan-box ,the-plan) (plan-knowledge ,the-plan)
-                                   (plan-gamma ,the-plan) (plan-index ,the-plan)))
-              (,workspace (memory-client ,memory))
+              (,memory (spare-memory (plan-knowledge ,the-plan))) ; nothing is asked of the rules
+              (,workspace (start-workspace (memory-client ,memory) (plan-box ,the-plan)
+                                           (plan-gamma ,the-plan)
+                                           (index-named (plan-index ,the-plan))))
               (*units* (%box-units (plan-box ,the-plan))))
          (multiple-value-prog1 (progn ,@body)
            (give-back ,memory (plan-knowledge ,the-plan)))))))
@@ -100,8 +101,12 @@ name of a box face; :POSITION and :NORMAL, lists along X Y Z in the box frame at
 positions in cm, the normals pointing inward; and :FINGER, the finger's name in the pictures, as
 \"F1\"."
   (with-replay (workspace candidate plan)
-    (execute (grasp-positions (%candidate-grasp candidate)) (workspace-registers workspace))
-    (workspace-contacts candidate workspace)))
+    (contacts-of candidate workspace)))
+
+(defun contacts-of (candidate workspace)
+  "Return what CANDIDATE-CONTACTS does; WORKSPACE holds the figures of CANDIDATE."
+  (execute (grasp-positions (%candidate-grasp candidate)) (workspace-registers workspace))
+  (workspace-contacts candidate workspace))
 
 (defun workspace-contacts (candidate workspace)
   "Return what CANDIDATE-CONTACTS does; WORKSPACE holds where the fingers of CANDIDATE are."

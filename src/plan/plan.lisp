@@ -219,13 +219,16 @@ of BOX, and its workspace has tried nothing yet.  Return it."
   (let ((box (if (box-p box) box (parse-box box))))
     (if margin (box-with-margin box margin) box)))
 
+(defun spare-memory (knowledge)
+  "Return an empty memory for the rules of KNOWLEDGE: one that another plan gave back, or a new one."
+  (or (take-from (knowledge-spare knowledge)) (new-memory knowledge)))
+
 (defun start-plan (box knowledge gamma &optional (index :paper))
-  "Return a memory ready for a plan for BOX: one that another plan gave back, or a new one."
+  "Return a memory ready for a plan for BOX."
   (let ((box (ready-box box knowledge))
         (gamma (check-gamma gamma))
         (index (index-named index)))
-    (prepare-memory (or (take-from (knowledge-spare knowledge)) (new-memory knowledge))
-                    box knowledge gamma index)))
+    (prepare-memory (spare-memory knowledge) box knowledge gamma index)))
 
 (defun give-back (memory knowledge)
   "Let another plan use MEMORY."

@@ -6,6 +6,7 @@
 
 (in-package :supergrip-statics)
 
+(declaim (inline moved-torque load-shares task-shares)) ; so that no number is boxed
 (defun moved-torque (ox oy oz fx fy fz)
   "Return the torque of the force F at the origin about the point O: F x O."
   (declare (double-float ox oy oz fx fy fz))
@@ -16,10 +17,11 @@
   (declare (type six capacities gravity) (double-float ox oy oz))
   (multiple-value-bind (x y z)
       (moved-torque ox oy oz (aref gravity 0) (aref gravity 1) (aref gravity 2))
-    (loop for load in (list (aref gravity 0) (aref gravity 1) (aref gravity 2)
-                            (+ x (aref gravity 3)) (+ y (aref gravity 4)) (+ z (aref gravity 5)))
-          for capacity across capacities
-          sum (/ (abs load) capacity) of-type double-float)))
+    (flet ((share (k load) (/ (abs (the double-float load)) (aref capacities k))))
+      (declare (inline share))
+      (+ (share 0 (aref gravity 0)) (share 1 (aref gravity 1)) (share 2 (aref gravity 2))
+         (share 3 (+ x (aref gravity 3))) (share 4 (+ y (aref gravity 4)))
+         (share 5 (+ z (aref gravity 5)))))))
 
 (defun task-shares (capacities need ox oy oz)
   "Return the greatest sum of the shares of CAPACITIES, at the point O, that a wrench of the task
@@ -31,14 +33,20 @@ being the torques' s/c, and of (need_k / c_k)^2 over the torques.  A force's own
         (greatest 0d0))
     (declare (double-float greatest))
     (flet ((force (k arm)
-             (expt (* (aref need k) (+ (/ (aref capacities k)) (abs arm))) 2)))
+             (let ((share (* (aref need k) (+ (/ (aref capacities k)) (abs (the double-float arm))))))
+               (* share share)))
+           (torque (k)
+             (let ((share (/ (aref need k) (aref capacities k))))
+               (* share share))))
+      (declare (inline force torque))
       (dolist (sy '(1d0 -1d0))
+        (declare (double-float sy))
         (dolist (sz '(1d0 -1d0))
+          (declare (double-float sz))
           (multiple-value-bind (x y z) (moved-torque ox oy oz mx (* sy my) (* sz mz))
-            (setf greatest (max greatest (+ (force 0 x) (force 1 y) (force 2 z))))))))
-    (sqrt (+ greatest
-             (loop for k from 3 below 6
-                   sum (expt (/ (aref need k) (aref capacities k)) 2) of-type double-float)))))
+            (setf greatest (max greatest (+ (force 0 x) (force 1 y) (force 2 z)))))))
+      (let ((square (+ greatest (+ (torque 3) (torque 4) (torque 5)))))
+        (if (>= square 0d0) (sqrt square) square))))) ; it may be no number
 
 (defconstant +most-sure+ 1d300 "The greatest sure radius that is told: less is sure, too.")
 
@@ -53,11 +61,13 @@ sixes without signs but GRAVITY; O, doubles, is the point of the capacities."
                      (< (max (abs ox) (abs oy) (abs oz)) 1d100)))
            0d0)
           (t (let* ((left (- 1d0 (load-shares capacities gravity ox oy oz)))
-                    (most (reduce #'max need))
+                    (most (loop for each across need maximize each))
                     ;; Needs as small as 1e-300 have no squares.
-                    (scaled (map 'six (lambda (each) (/ each most)) need))
+                    (scaled (let ((scaled (copy-seq need)))
+                              (dotimes (k 6 scaled)
+                                (setf (aref scaled k) (/ (aref need k) most)))))
                     (radius (/ left (task-shares capacities scaled ox oy oz) most)))
-               (declare (double-float left most radius))
+               (declare (double-float left most radius) (type six scaled))
                (cond ((not (> radius 0d0)) 0d0) ; nothing is sure, or it has no value
                      ((> radius +most-sure+) +most-sure+)
                      (t radius)))))))
