@@ -61,7 +61,8 @@ or NIL, in it.  On a terminal it shows, two seconds after START, how many files 
         (when (and (> (- (get-internal-real-time) start) (* 2 internal-time-units-per-second))
                    (interactive-stream-p *messages*))
           (setf *shown* t)
-          (format *messages* "~cSUPER-GRIP is compiled, which is done once: ~d file~:p" #\Return count)
+          (format *messages* "~cSUPER-GRIP is compiled, which is done once: ~d file~:p" #\Return
+                  count)
           (finish-output *messages*))
         (or (null check) (apply check arguments)))))
 
@@ -135,7 +136,7 @@ that can be done."
     (or (load-compiled system)
         (progn
           (when (interactive-stream-p *messages*)
-            (tell "What is compiled can't be kept, so the sources are loaded: that takes some seconds."))
+            (tell "What is compiled can't be kept, so the sources are loaded: it takes some seconds."))
           (call-quietly #'asdf:operate 'asdf:load-source-op system))))
 
   (defun find-library (name)

@@ -128,7 +128,8 @@ name of the file to declare them in."
          (predicate (find-predicate rulebase (list (box-fact-words fact))))
          (spot (box-fact-spot fact)))
     (cond ((or (null predicate) (null (predicate-given predicate)))
-           (complain spot "~a: no INPUT declares ~a~a; to allow it, add ~a to ~a~@[, or type (edit '~a)~]"
+           (complain spot "~a: no INPUT declares ~a~a; to allow it, add ~a to ~a~@[, or type ~
+                           (edit '~a)~]"
                      text words
                      (suggestion words (map 'list #'predicate-text
                                             (remove-if-not #'declared-p

@@ -23,8 +23,8 @@
   (:report (lambda (condition stream)
              (with-slots (given) condition
                (if given
-                   (format stream "~a is not a plan: FORWARD-CHAIN, PLAN and TRY-GRASP return plans~:[~;; ~
-                                   HOW, WHY-NOT and REQUIRES answer about a name or a fact~]"
+                   (format stream "~a is not a plan: FORWARD-CHAIN, PLAN and TRY-GRASP return ~
+                                   plans~:[~;; HOW, WHY-NOT and REQUIRES answer about a name or a fact~]"
                            (form-text given) (or (namep given) (consp given) (stringp given)))
                    (write-string "there is no plan yet: call (forward-chain) first" stream)))))
   (:documentation "A question about a plan was asked before there was one, or of something else."))
@@ -55,8 +55,8 @@
              (with-slots (changed by-hand) condition
                (format stream "~{~a~^ and ~} changed after this plan was made; ~:[(forward-chain)~;~
                                (try ...)~] makes a new one" changed by-hand))))
-  (:documentation "A question was asked about *PLAN*, but the box, the knowledge or gamma is not any more
-what it was when that was made."))
+  (:documentation "A question was asked about *PLAN*, but the box, the knowledge or gamma
+is not any more what it was when that was made."))
 
 (defun changed-since (plan)
   "Return what is not any more as it was when PLAN, the last one, was made, nor as in PLAN: texts."
@@ -80,7 +80,8 @@ what it was when that was made."))
   "Return OBJECT if it is knowledge.  INSTEAD says what else may have been meant."
   (if (knowledge-p object)
       object
-      (refuse-argument "~a is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force~@[; ~a~]"
+      (refuse-argument "~a is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in ~
+                        force~@[; ~a~]"
                        (form-text object) instead)))
 
 (defun name-of (designator)

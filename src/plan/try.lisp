@@ -31,7 +31,8 @@ before.  The log of MEMORY gets the candidates."
                        (aref (grasp-usable grasp) (%box-constrained (workspace-box workspace))))))
     (declare (type workspace workspace) (type matching-set open))
     (unless (zerop (logandc2 open (aref tried index)))
-      (let ((same (funcall (index-same (workspace-index workspace)) grasp (workspace-box workspace))))
+      (let ((same (funcall (index-same (workspace-index workspace)) grasp
+                           (workspace-box workspace))))
         (declare (type (simple-array (unsigned-byte 24) (*)) same))
         (loop
           (let ((left (logandc2 open (aref tried index))))

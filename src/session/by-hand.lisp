@@ -88,8 +88,8 @@ Source: the paper, Low-level System."
       (write-tried candidate plan level nil stream))
     (when (notany #'candidate-quality tried)
       (let ((miss (and tried (nearest-miss tried plan))))
-        (format stream "(~a IS NOT O.K.~@[, NEAREST MATCHING: (~{~a~^ ~})~]: ~a)~%" (grasp-name grasp)
-                (and miss (candidate-matching miss))
+        (format stream "(~a IS NOT O.K.~@[, NEAREST MATCHING: (~{~a~^ ~})~]: ~a)~%"
+                (grasp-name grasp) (and miss (candidate-matching miss))
                 (if miss
                     (miss-text miss plan)
                     "EVERY MATCHING ASKED FOR WOULD USE A CONSTRAINED FACE"))))))

@@ -36,8 +36,8 @@ weight (see PLAN); :STREAM is where to print, NIL for not at all; :TRACE says ho
   "Return ARGUMENTS, keys and values for FUNCTION, if each key is one of KEYS.  EXAMPLE is a right call."
   (loop for (key . rest) on arguments by #'cddr
         unless (member key keys)
-          do (refuse-argument "~a is not a key of ~a: keys are ~{:~a~^, ~}~@[; a value goes after its key, ~
-                               as in ~a~]" (form-text key) function keys
+          do (refuse-argument "~a is not a key of ~a: keys are ~{:~a~^, ~}~@[; a value goes ~
+                               after its key, as in ~a~]" (form-text key) function keys
                               (and (not (namep key)) example))
         unless rest
           do (refuse-argument "there is no value after the key :~a of ~a" key function))

@@ -385,7 +385,8 @@ name of that and itself; or NIL."
                                ((= place number) (if up "no less than" "no more than"))
                                ((= place (next-double number (if up 1 -1)))
                                 (if up "more than" "less than")))
-          when (and relation (decides-p name (* number (if up 1.000001d0 0.999999d0)) line goal place))
+          when (and relation
+                    (decides-p name (* number (if up 1.000001d0 0.999999d0)) line goal place))
             return (list relation name number))))
 
 (defun decides-p (name number line goal place)

@@ -29,10 +29,10 @@ sentence without faces, if that names no rule or grasp.  NIL if it is none."
                          (remove-if #'face-index parts) (remove-if-not #'face-index parts))))))
 
 (defun how (fact &rest arguments)
-  "(HOW FACT [PLAN]): print and return how FACT, as '(PARALLEL (Y2 Y1)), came to be known in PLAN, by
-default *PLAN*: the tree of rules, bindings and facts down to the box; negations as assumed when they
-were tested.  Of a FACT with several lists of faces, as ASSERTIONS has them, return the list of the
-answers.  Where FACT is the name of a rule or a grasp, the answer is WHY-NOT's."
+  "(HOW FACT [PLAN]): print and return how FACT, as '(PARALLEL (Y2 Y1)), came to be known in PLAN,
+by default *PLAN*: the tree of rules, bindings and facts down to the box; negations as assumed when
+they were tested.  Of a FACT with several lists of faces, as ASSERTIONS has them, return the list of
+the answers.  Where FACT is the name of a rule or a grasp, the answer is WHY-NOT's."
   (check-one-list fact arguments)
   (let* ((plan (if arguments (pop arguments) (last-plan)))
          (asked (asked-fact fact plan))
@@ -53,7 +53,8 @@ symbol or a string; where it is a fact, the answer is HOW's."
          (plan (if arguments (pop arguments) (last-plan)))
          (fact (asked-fact name plan)))
     (when arguments
-      (refuse-argument "WHY-NOT takes a name, a list of six faces, and a plan; ~{~a~^, ~} is too much"
+      (refuse-argument "WHY-NOT takes a name, a list of six faces, and a plan; ~{~a~^, ~} is too ~
+                        much"
                        (mapcar #'form-text arguments)))
     (if fact
         (let ((answers (explain-facts fact plan)))
