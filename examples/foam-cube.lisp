@@ -9,9 +9,7 @@
 (load (merge-pathnames "../src/boot.lisp" *load-truename*))
 (in-package :supergrip-user)
 
-(cl:setq *knowledge* (load-knowledge
-                      :rules (merge-pathnames "further-work/rules.lisp" *load-truename*)
-                      :grasps (merge-pathnames "further-work/grasps.lisp" *load-truename*)))
+(cl:setq *knowledge* (load-knowledge :hand (merge-pathnames "further-work/" *load-truename*)))
 
 (setq box '((SIZE 20 20 20)
             (WEIGHT 0.05)

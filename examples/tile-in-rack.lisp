@@ -10,9 +10,7 @@
 (load (merge-pathnames "../src/boot.lisp" *load-truename*))
 (in-package :supergrip-user)
 
-(cl:setq *knowledge* (load-knowledge
-                      :rules (merge-pathnames "further-work/rules.lisp" *load-truename*)
-                      :grasps (merge-pathnames "further-work/grasps.lisp" *load-truename*)))
+(cl:setq *knowledge* (load-knowledge :hand (merge-pathnames "further-work/" *load-truename*)))
 
 (setq box '((SIZE 12 2 8)
             (WEIGHT 0.1)

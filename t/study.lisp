@@ -3,6 +3,7 @@
 ;;;; sbcl --script t/study.lisp                              what docs/reconstruction.md counts
 ;;;; sbcl --script t/study.lisp cases | python3 t/cones.py   how tight bounds are, for docs/physics.md
 ;;;; sbcl --script t/study.lisp compare RULES GRASPS         what other files answer differently
+;;;; sbcl --script t/study.lisp further-work                 what docs/further-work.md counts
 ;;;; sbcl --script t/study.lisp sure                         how tight the sure radius is
 ;;;; sbcl --script t/study.lisp choice                      exact choices, candidate by candidate
 ;;;; sbcl --script t/study.lisp lifting                     what sound lifting loses
@@ -253,6 +254,67 @@ tries something new: again with all rules up to it, until there is none."
   (supergrip:compare-knowledge (supergrip:load-knowledge :rules rules :grasps grasps)
                                supergrip:*knowledge* (boxes-of 'random-box 10000 2026)))
 
+;;; Grasps without formulas
+
+(defun quantile (share numbers)
+  (let ((sorted (sort (coerce numbers 'vector) #'<)))
+    (aref sorted (floor (* share (1- (length sorted)))))))
+
+(defun choices (differences)
+  "Return what is chosen in DIFFERENCES, and how often: a list of (OLD NEW COUNT), the most frequent
+first."
+  (let ((table (make-hash-table :test #'equal)))
+    (dolist (difference differences)
+      (incf (gethash (list (or (supergrip:plan-grasp (supergrip:difference-old difference)) "can't")
+                           (or (supergrip:plan-grasp (supergrip:difference-new difference)) "can't"))
+                     table 0)))
+    (sort (loop for (old new) being the hash-keys of table using (hash-value count)
+                collect (list old new count))
+          #'> :key #'third)))
+
+(defun print-changes (what old new boxes)
+  "Print what differs for BOXES between the knowledge OLD and NEW, WHAT they are; return the differences."
+  (let ((differences (supergrip:compare-knowledge old new boxes :stream nil)))
+    (flet ((of (kind) (count kind differences :key #'supergrip:difference-what)))
+      (format t "~a: of ~d boxes ~d differ in verdict, ~d in grasp, ~d in quality alone~%~:{  ~a, now ~
+                 ~a: ~d~%~}"
+              what (length boxes) (of :verdict) (of :grasp) (of :quality)
+              (choices (remove :quality differences :key #'supergrip:difference-what))))
+    differences))
+
+(defun lost (differences)
+  "Return how many of DIFFERENCES have no grasp any more, or one of lower quality."
+  (loop for difference in differences
+        for old = (supergrip:plan-quality (supergrip:difference-old difference))
+        for new = (supergrip:plan-quality (supergrip:difference-new difference))
+        count (and old (or (null new) (< new (- old 1d-9))))))
+
+(defun print-times (knowledge boxes)
+  "Print how long plans of BOXES by KNOWLEDGE take, at first and again, beside the shipped ones."
+  (let ((first (loop for box in boxes collect (microseconds (list box) knowledge)))
+        (ratios (loop for box in boxes
+                      for many = (make-list 300 :initial-element box)
+                      collect (apply #'/ (loop for known in (list knowledge supergrip:*knowledge*)
+                                               collect (loop repeat 3
+                                                             minimize (microseconds many known)))))))
+    (format t "~d boxes: a plan takes ~,1f ms at first, median, ~,1f for one in ten, ~,1f at most; ~
+               again, it takes ~,2f times as long as a shipped one, median, ~,2f for one in ten~%"
+            (length boxes) (/ (quantile 0.5 first) 1000) (/ (quantile 0.9 first) 1000)
+            (/ (quantile 1 first) 1000) (quantile 0.5 ratios) (quantile 0.9 ratios))))
+
+(defun print-further-work ()
+  (let* ((directory (project-file "examples/further-work/"))
+         (further (supergrip:load-knowledge :hand directory))
+         (seven (handler-bind ((warning #'muffle-warning))
+                  (supergrip:load-knowledge :grasps (merge-pathnames "grasps.lisp" directory))))
+         (boxes (append (boxes-of 'table-box 400 2026) (boxes-of 'household-box 400 2026)
+                        (boxes-of 'rubber-box 200 2026))))
+    (print-changes "the seven grasps without formulas, the shipped rules" supergrip:*knowledge* seven
+                   boxes)
+    (format t "lost by LATERAL and WIDE-CORNER: ~d~%"
+            (lost (print-changes "with LATERAL and WIDE-CORNER" seven further boxes)))
+    (print-times (supergrip:load-knowledge :hand directory) (subseq boxes 300 500))))
+
 ;;; What contacts can really do
 
 (defun print-radii (count state)
@@ -440,6 +502,7 @@ another grasp, or one elsewhere on the box, is then the best."
 
 (destructuring-bind (&optional what . files) (rest sb-ext:*posix-argv*)
   (cond ((equal what "cases") (print-cases (sb-ext:seed-random-state 1)))
+        ((equal what "further-work") (print-further-work))
         ((equal what "sure") (print-sure 10000 (sb-ext:seed-random-state 1)))
         ((equal what "choice") (print-choices 500))
         ((equal what "lifting") (loop for (kind maker) in (subseq *kinds* 0 2)

@@ -51,7 +51,7 @@ Signals a KNOWLEDGE-ERROR."
 (defun try-knowledge (options)
   "Return the knowledge of the files that OPTIONS, a plist, name; or NIL and the exit status, after a
 report."
-  (if (destructuring-bind (&key hand rules grasps (gripper (and hand (hand-file hand "gripper.lisp")))
+  (if (destructuring-bind (&key hand rules grasps (gripper (and hand (hand-gripper hand)))
                            &allow-other-keys)
           options
         (every #'readable-p (list rules grasps gripper)))

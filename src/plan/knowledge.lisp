@@ -293,14 +293,22 @@ calls READ again, and CONTINUE, which goes on without the rules and grasps that 
         file
         (shipped-file name))))
 
+(defun hand-gripper (hand)
+  "Return the file gripper.lisp of the folder HAND; NIL if it lacks that and has grasps.lisp, which may
+hold the gripper, too."
+  (let ((gripper (hand-file hand "gripper.lisp")))
+    (flet ((there-p (file) (probe-file (native-path file))))
+      (and (or (there-p gripper) (not (there-p (hand-file hand "grasps.lisp"))))
+           gripper))))
+
 (defun load-knowledge (&key hand
                          (rules (knowledge-file "rules.lisp" hand))
                          (grasps (knowledge-file "grasps.lisp" hand))
-                         (gripper (and hand (hand-file hand "gripper.lisp"))))
+                         (gripper (and hand (hand-gripper hand))))
   "Read the files RULES and GRASPS, by default those that are shipped, and return their knowledge.
 GRIPPER is a file that holds a gripper alone, which takes the place of the one in GRASPS.  HAND is a
 folder that holds what belongs to one hand: gripper.lisp, rules.lisp and grasps.lisp; where it lacks
-one of the last two, the shipped one serves.
+one of the last two, the shipped one serves.  Where it lacks the first, grasps.lisp has the gripper.
 
 Signals one KNOWLEDGE-ERROR that holds all that is wrong with them; restarts: RETRY reads the files
 again, CONTINUE leaves out the rules and grasps that are wrong.  What is valid but can't be meant is

@@ -43,7 +43,7 @@ returns the former."
                                        (knowledge-file "grasps.lisp" hand)
                                        (knowledge-grasp-file *knowledge*)))
                            (gripper (if hand
-                                        (hand-file hand "gripper.lisp")
+                                        (hand-gripper hand)
                                         (knowledge-gripper-file *knowledge*))))
   "Read the files of the knowledge in force again, or the files RULES, GRASPS and GRIPPER, or those of
 the folder HAND, as LOAD-KNOWLEDGE does, and put what they hold into force.  If GRIPPER is NIL, the
