@@ -7,9 +7,7 @@
 (defun further-work ()
   "Return the knowledge of examples/further-work, without its warnings."
   (handler-bind ((warning #'muffle-warning))
-    (supergrip:load-knowledge
-     :rules (project-file "examples/further-work/rules.lisp")
-     :grasps (project-file "examples/further-work/grasps.lisp"))))
+    (supergrip:load-knowledge :hand (project-file "examples/further-work/"))))
 
 (defparameter *pencil-lines* 4 "How many of the best grasps of the pencil are those of the paper.")
 
@@ -169,3 +167,31 @@
     (is (= 12 (tried supergrip:*knowledge*)))
     (is (= 16 (tried (further-work))))
     (is (= 24 (tried (further-work) '(pose (0 0 0) (0.6d0 0 0 0.8d0)))))))
+
+;;; The lateral and the wide grasp
+
+(defun example-box (name)
+  "Return the box that the example NAME sets."
+  (let ((text (file-text (format nil "examples/~a.lisp" name))) (*package* (find-package :supergrip-user))
+        (*read-default-float-format* 'double-float))
+    (second (third (read-from-string text t nil :start (search "(setq box" text))))))
+
+(test the-new-grasps-win-where-they-should
+  (loop for (name grasp shipped) in '(("tile-in-rack" "LATERAL" "PINCH-3-PARALLEL")
+                                      ("foam-cube" "WIDE-CORNER" nil))
+        for box = (example-box name)
+        do (is (equal grasp (supergrip:plan-grasp (supergrip:plan box :knowledge (further-work)))))
+           (is (equal shipped (supergrip:plan-grasp (supergrip:plan box))))))
+
+(test the-new-grasps-lose-nothing
+  (let ((state (sb-ext:seed-random-state 12)) (further (further-work))
+        (seven (handler-bind ((warning #'muffle-warning))
+                 (supergrip:load-knowledge
+                  :grasps (project-file "examples/further-work/grasps.lisp")))))
+    (loop for maker in (list #'table-box #'household-box #'rubber-box)
+          do (loop repeat 15
+                   do (let* ((box (supergrip:parse-box (funcall maker state)))
+                             (before (supergrip:plan-quality (supergrip:plan box :knowledge seven)))
+                             (after (supergrip:plan-quality (supergrip:plan box :knowledge further))))
+                        (is-true (or (null before) (and after (>= after (- before 1d-9))))
+                                 "~a: ~a, was ~a" box after before))))))
