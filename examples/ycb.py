@@ -26,10 +26,16 @@ def came_from(approach):
     return "above" if approach[2] < -0.5 else "below" if approach[2] > 0.5 else "the side"
 
 
+def grasp_name(name):
+    """Return NAME; the U- and the C-shape of these hands touch the same places, and count as one."""
+    return "PINCH-3-U/C-SHAPE" if name in ("PINCH-3-U-SHAPE", "PINCH-3-C-SHAPE") else name
+
+
 def cell(record):
     if record["status"] == "grasp":
         fits = {True: "", False: ", does not fit", None: ", may not fit"}[record["fits"]]
-        return "%s, %s, %.2g N%s" % (record["grasp"], came_from(record["approach"]), record["squeeze"], fits)
+        return "%s, %s, %.2g N%s" % (grasp_name(record["grasp"]), came_from(record["approach"]),
+                                     record["squeeze"], fits)
     reason = record["reason"]
     return "can't: " + next((short for long, short in SHORT if short and long in reason), reason)
 
