@@ -34,7 +34,7 @@ class PlannerUseless(PlannerDied):
 
 
 class Planner:
-    """One process of the program, which answers box by box.  If it dies, the next box starts another."""
+    """One process of the program, which answers box by box; if it dies, the next box starts another."""
 
     def __init__(self, options=(), program=PROGRAM):
         self.command = [*program, "--input", "json", "--format", "json", *options]
@@ -95,7 +95,7 @@ def number(part, column, default=None):
 
 
 def pose_of(part, height):
-    """Return the pose of PART, HEIGHT mm high, on the table; None if the CSV does not say where it is."""
+    """Return the pose of PART, HEIGHT mm high, on the table; None if the CSV gives none."""
     columns = ("at_x_mm", "at_y_mm", "yaw_deg")
     if not any((part.get(column) or "").strip() for column in columns):
         return None

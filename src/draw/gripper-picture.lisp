@@ -110,7 +110,9 @@
   "Draw the contacts of the U-shape as they are seen along A, on a box that the thumb just reaches."
   (flet ((size (name) (gripper-size name knowledge))
          (at (x y &optional (right 0) (down 0)) (mapcar #'+ (funcall place x y) (list right down))))
-    (let ((reach (size "REACH-U")) (half (* 0.3 (size "DIST-PINCH"))) (link (* 0.5 (size "FINGER-LENGTH"))))
+    (let ((reach (size "REACH-U"))
+          (half (* 0.3 (size "DIST-PINCH")))
+          (link (* 0.5 (size "FINGER-LENGTH"))))
       (draw-side-of-box (list (- half) (* 0.6 reach)) (list half (- reach)) place)
       (loop for (name . points) in `(("F1" (,(- half) 0) (,(- (+ half link)) 0))
                                      ("F2" (,half 0) (,(+ half link) 0))
@@ -137,7 +139,7 @@ dimensions measures: the distance of opposed bases, the length of a link, the op
 fingers side by side, the width of the hand, the least width of a face; and the reach of the thumb.")
         (draw-heading (format nil "What a gripper’s dimensions measure~@[: ~a~]"
                               (knowledge-model knowledge))
-                      '("Lengths in cm, in one scale.  Palm and links are drawn as simple as they are computed with.")
+                      '("Lengths in cm, in one scale.  Palm and links are a diagram.")
                       1100)
         (loop for (caption draw x top)
                 in `(("Opposed fingers, seen along O" draw-opposed-fingers 12 170)
@@ -155,7 +157,7 @@ fingers side by side, the width of the hand, the least width of a face; and the 
   (place-labels (list (+ x 4) 100 344 384)))
 
 (defun draw-gripper (file &key (knowledge *knowledge*))
-  "Draw what the dimensions of the gripper of KNOWLEDGE measure into FILE, an SVG picture.  A DRAWING-ERROR
-says so if it lacks some that the picture needs, as a jaw does.  Returns FILE."
+  "Draw what the dimensions of the gripper of KNOWLEDGE measure into FILE, an SVG picture.  A
+DRAWING-ERROR says so if it lacks some that the picture needs, as a jaw does.  Returns FILE."
   (drawing ("the gripper")
     (save-picture (gripper-picture (check-knowledge-argument knowledge)) file)))

@@ -1,4 +1,4 @@
-;;;; read-gripper.lisp -- the gripper's dimensions are checked; the numbers stand in grasps.lisp, (SETQ GRIPPER ...).
+;;;; read-gripper.lisp -- (SETQ GRIPPER ...) is read and checked; who uses which dimension.
 
 (in-package :supergrip)
 
@@ -17,7 +17,8 @@
     ("PALM-DEPTH" 8d0 "cm, from the palm's frame to the grasp centre"
      "formats that place the palm"))
   "The dimensions that shipped knowledge or SUPER-GRIP itself may use: the name, a number such as a
-hand has, its unit and meaning, and which part of SUPER-GRIP uses it.  A gripper names those that are used, and may have others.")
+hand has, its unit and meaning, and which part of SUPER-GRIP uses it.  A gripper
+names those that are used, and may have others.")
 
 (defstruct gripper
   "A gripper as it was read.  DIMENSIONS, an alist from name to double; NAMES, those that it gives,
