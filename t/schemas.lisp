@@ -115,6 +115,7 @@ patterns and conditions."
               (check (supergrip::record-in-units
                       (supergrip::plan-record plan :line 1 :all 2)
                       (supergrip::%box-units (supergrip:plan-box plan))))))))
+      (check (supergrip::plan-record (supergrip:plan *good-box*) :line 1 :refine t))
       (dolist (index '(:paper :exact))
         (check (supergrip::error-record (list (supergrip-data:make-problem :line 2 :text "bad"))
                                         :name "x" :line 2 :index index :all 3))))
