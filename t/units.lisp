@@ -324,6 +324,10 @@
             do (is (search text (supergrip:plan-reason plan)) "~a: ~a" text (supergrip:plan-reason plan)))
       (is (search "they are 250 mm apart, no less than DIST-PINCH, 120"
                   (words (lambda () (supergrip:how '(large (y2 y1)) (plan-with '(size 200 250 260))))))))
+    (is (search "F3 on Y1: from (0 10 0) mm to ("
+                (words (lambda () (supergrip:explain-refinement
+                                   (supergrip:plan (box-in *plain-pencil* :mm :n 1/10 1/20)
+                                                   :knowledge knowledge))))))
     (is (equal "#<BOX 12.0 x 2.0 x 2.0 cm>" (princ-to-string (supergrip:parse-box *good-box*))))))
 
 (test a-change-in-units-changes-the-choice

@@ -2,18 +2,21 @@
 
 (in-package :supergrip)
 
-(defun cm-text (place)
-  "Return PLACE, three numbers in cm, as (-0.87 -1 0)."
-  (plain-text "(~{~a~^ ~})"
-              (loop for number in place
-                    collect (number-text (/ (round (* 100 number)) 100d0)))))
+(defun finger-place-text (place)
+  "Return PLACE, three numbers in cm, to 0.1 mm: as (-0.87 -1 0), or with its unit if *UNITS* are others."
+  (let ((text (plain-text "(~{~a~^ ~})"
+                          (loop for number in place
+                                collect (number-text (in-units (/ (round (* 100 number)) 100d0)
+                                                               :length))))))
+    (if *units* (with-unit text :length) text)))
 
 (defun write-moves (refinement stream)
   "Write where each finger of REFINEMENT was, and where it is now."
   (loop for home in (refinement-home refinement)
         for contact in (refinement-contacts refinement)
         do (format stream "  ~a on ~a: from ~a to ~a~%" (getf contact :finger) (getf contact :surface)
-                   (cm-text (getf home :position)) (cm-text (getf contact :position)))))
+                   (finger-place-text (getf home :position))
+                   (finger-place-text (getf contact :position)))))
 
 (defun gain-text (from to)
   "Return by how much TO, a quality, is above FROM, in percent: \"12.3 %\"."
@@ -28,6 +31,11 @@
                 (plain-text "~,3f to ~,3f" lower upper)
                 (plain-text "at most ~,3f, nothing proved" upper))
             lower)))
+
+(defmethod write-answer :around ((answer refinement) stream)
+  (declare (ignore stream))
+  (let ((*units* (%box-units (plan-box (refinement-plan answer)))))
+    (call-next-method)))
 
 (defmethod write-answer ((answer refinement) stream)
   (let ((before (refinement-quality-before answer)) (after (refinement-quality answer))
