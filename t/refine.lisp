@@ -180,7 +180,36 @@
            (supergrip:refinement-quality-bound refinement)
            (supergrip:candidate-velocity-radius (supergrip:refinement-candidate refinement)))))
   (is (equal "count is 0; it is how many grasps to refine, 1 or more"
-             (error-text (supergrip:refine (pencil-plan) :count 0)))))
+             (error-text (supergrip:refine (pencil-plan) :count 0))))
+  (is (equal "regions is MANY; it is a number of regions, such as 1000"
+             (error-text (supergrip:refine (pencil-plan) :regions 'many))))
+  (is (equal "gap is -1; it is a number from 0 to 1, such as 0.02"
+             (error-text (supergrip:refine (pencil-plan) :gap -1)))))
+
+(test a-sheet-that-is-hardly-held-is-refined-in-the-end
+  "By rounding its contacts just fail to hold it in some motions."
+  (let ((refinement (supergrip:refine
+                     (supergrip:plan '((size 70d0 0.9d0 7d-6) (weight 3d-10) (u 0.6d0) (v 8d0)
+                                       (constrained) (force-needed (1 1 1 1 1 0.2d0))
+                                       (velocity-needed (1 1 1 1 1 1d-70))))
+                     :count 1 :regions 20)))
+    (is (<= (supergrip:refinement-quality-before refinement)
+            (supergrip:refinement-quality refinement)
+            (supergrip:refinement-quality-bound refinement)))))
+
+(test many-fingers-are-refined-in-the-end
+  (let* ((fingers (loop for k below 8
+                        collect (format nil "(N~d ~,2f ~,2f)" (1+ (mod k 2)) (* 0.4 (floor k 4))
+                                        (* 0.4 (mod (floor k 2) 2)))))
+         (knowledge (text-knowledge *good-rules*
+                                    (format nil "~a~%~a" *small-gripper*
+                                            (grasp-text :contacts (format nil "(~{~a~})" fingers)))))
+         (refinement (supergrip:refine (supergrip:plan *good-box* :knowledge knowledge)
+                                       :count 1 :regions 20)))
+    (is (= 8 (length (supergrip:refinement-contacts refinement))))
+    (is (<= (supergrip:refinement-quality-before refinement)
+            (supergrip:refinement-quality refinement)
+            (supergrip:refinement-quality-bound refinement)))))
 
 ;;; What is told
 

@@ -164,7 +164,7 @@ Return the bound."
 radius; or those two.  GOAL is the radius that is worth asking for."
   (let* ((middle (map 'doubles (lambda (low high) (/ (+ low high) 2)) (g-low region) (g-high region)))
          (middle (make-legal middle (r-freedom refining))))
-    (when (and middle (> (cuts-radius refining middle) goal))
+    (when (and middle (may-ask-p refining) (> (cuts-radius refining middle) goal))
       (let ((radius (radius-at refining middle value)))
         (when (> radius value)
           (multiple-value-bind (other radius) (climb-surely refining middle radius)

@@ -13,8 +13,9 @@
 (defstruct (refining (:copier nil) (:conc-name r-))
   "The search for a better placement of the fingers of FREEDOM.  NORMALS has the axis that each is normal
 to, SIGNS where along it the inward normal points; U and V are the coefficients of friction.  NEED is
-the task, GRAVITY the wrench of the weight, GRIP the fingers at the placement asked last, CUTS a list
-of cuts: a motion, in which the size of the task is 1, and gravity's power."
+the task, GRAVITY the wrench of the weight, GRIP the fingers at the placement asked last, ASKED how many
+powers were computed for that so far, CUTS a list of cuts: a motion, in which the size of the task is 1,
+and gravity's power."
   (freedom nil :type freedom) (count 0 :type fixnum)
   (normals nil :type simple-vector) (signs nil :type doubles)
   (u 0d0 :type friction-number) (v 0d0 :type friction-number)
@@ -85,12 +86,18 @@ of cuts: a motion, in which the size of the task is 1, and gravity's power."
 (defun ask (refining placement gap absolute budget)
   "Return the exact radius of REFINING at PLACEMENT, an upper value and a certified one or NIL, as
 GRIP-RADIUS does; the worst motion becomes a cut."
-  (multiple-value-bind (upper lower worst)
+  (multiple-value-bind (upper lower worst evaluations)
       (grip-radius (place-fingers refining placement) (r-need refining) (r-gravity refining)
                    gap absolute budget)
-    (incf (r-asked refining))
+    (incf (r-asked refining) evaluations)
     (add-cut refining worst)
     (values upper lower)))
+
+(defparameter +most-powers+ 1000000
+  "How many powers may be computed before the search ends.  Most grasps take less than a third.")
+
+(defun may-ask-p (refining)
+  (< (r-asked refining) +most-powers+))
 
 (defun radius-at (refining placement least)
   "Return the exact radius of REFINING at PLACEMENT, an upper value, mostly within 1 %; or, if it is not

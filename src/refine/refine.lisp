@@ -141,13 +141,15 @@ of the grasp, stays.  Fingers stay on their faces and within what hand and faces
 where the new places are surely better: the certified radius there is above the upper value before.
 It looks for the best places until it has proved that none is better by more than GAP, or has looked at
 REGIONS of them."
-  (let* ((count (if (typep count '(integer 1)) count
-                    (refuse-argument "count is ~a; it is how many grasps to refine, 1 or more"
-                                     (form-text count))))
-         (possible (plan-possible (need-plan plan)))
-         (refinements (without-float-traps
+  (unless (typep count '(integer 1))
+    (refuse-argument "count is ~a; it is how many grasps to refine, 1 or more" (form-text count)))
+  (unless (typep regions '(and fixnum (integer 0)))
+    (refuse-argument "regions is ~a; it is a number of regions, such as 1000" (form-text regions)))
+  (unless (and (realp gap) (as-double gap) (<= 0 gap 1))
+    (refuse-argument "gap is ~a; it is a number from 0 to 1, such as 0.02" (form-text gap)))
+  (let* ((refinements (without-float-traps
                         (loop repeat count
-                              for candidate in possible
-                              collect (refine-candidate candidate plan gap regions))))
+                              for candidate in (plan-possible (need-plan plan))
+                              collect (refine-candidate candidate plan (as-double gap) regions))))
          (sorted (stable-sort refinements #'> :key #'refinement-quality)))
     (values (first sorted) sorted)))

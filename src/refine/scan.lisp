@@ -4,6 +4,8 @@
 
 (defparameter +most-scanned+ 3000 "How many placements the lattice has at most.")
 
+(defparameter +most-tried+ 400000 "How many places of one finger are tried for that, at most.")
+
 (defun finger-lattice (freedom finger count)
   "Return the places of FINGER of FREEDOM on a lattice of COUNT by COUNT: lists along X Y Z."
   (flet ((along (axis)
@@ -19,7 +21,7 @@
 (defun lattice (freedom count)
   "Return the legal placements of FREEDOM in which each finger stands on a lattice of COUNT by COUNT; NIL
 if there are too many."
-  (let* ((found '()) (left +most-scanned+) (fingers (freedom-count freedom))
+  (let* ((found '()) (left +most-scanned+) (tries +most-tried+) (fingers (freedom-count freedom))
          (places (loop for finger below fingers collect (finger-lattice freedom finger count)))
          (placement (copy-seq (freedom-home freedom))))
     (labels ((apart-p (finger)
@@ -31,6 +33,7 @@ if there are too many."
                    (progn (push (copy-seq placement) found)
                           (when (minusp (decf left)) (return-from lattice nil)))
                    (dolist (place (first places))
+                     (when (minusp (decf tries)) (return-from lattice nil))
                      (replace placement place :start1 (* 3 finger))
                      (when (apart-p finger) (place-from (1+ finger) (rest places)))))))
       (place-from 0 places)

@@ -76,14 +76,15 @@ more than VALUE: a list of (RADIUS . PLACEMENT), RADIUS the least that the cuts 
   "Ask for the radii of at most MOST of WAYS, (RADIUS . PLACEMENT), the most promising first, until one is
 above LEAST.  Return its placement and its radius, or NIL.  What is asked makes cuts, which rule out
 others."
-  (loop repeat most do
-    (setf ways (stable-sort (remove least ways :key #'car :test #'>=) #'> :key #'car))
-    (when (null ways) (return nil))
-    (let* ((new (cdr (pop ways))) (radius (radius-at refining new least)))
-      (when (> radius least) (return (values new radius)))
-      (dolist (way ways)
-        (setf (car way) (min (car way)
-                             (cut-power refining (first (r-cuts refining)) (cdr way))))))))
+  (loop repeat most
+        while (may-ask-p refining)
+        do (setf ways (stable-sort (remove least ways :key #'car :test #'>=) #'> :key #'car))
+           (when (null ways) (return nil))
+           (let* ((new (cdr (pop ways))) (radius (radius-at refining new least)))
+             (when (> radius least) (return (values new radius)))
+             (dolist (way ways)
+               (setf (car way) (min (car way)
+                                    (cut-power refining (first (r-cuts refining)) (cdr way))))))))
 
 (defun widest (low high)
   "Return the place where LOW and HIGH, vectors, differ most, and by how much."

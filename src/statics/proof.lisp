@@ -161,7 +161,8 @@ motion in which the fingers' reach along that wrench ends is a worse one, or as 
         (replace x (f-witness finder))
         (map-into (p-touch p) #'+ (f-x finder) (f-target finder) (p-supply p))
         (note p (scaled x (sqrt (the not-negative (row-dot x 0 x)))) (p-w p))
-        (unless (worse-p p upper least) (return))))))
+        ;; Rounding may put a grip that just holds below 0, where there is no end to worse motions.
+        (unless (and (> (p-upper p) 0d0) (worse-p p upper least)) (return))))))
 
 (defun look-around (p)
   "Descend from the worst of the axes of P and the ways between two of them."
