@@ -9,7 +9,9 @@
 (load (merge-pathnames "../src/boot.lisp" *load-truename*))
 (in-package :supergrip-user)
 
-(cl:setq *knowledge* (load-knowledge :hand (merge-pathnames "further-work/" *load-truename*)))
+(cl:setq *knowledge* (load-knowledge
+                      :hand (merge-pathnames "further-work/"
+                                             (uiop:pathname-directory-pathname *load-truename*))))
 
 (setq box '((SIZE 20 20 20)
             (WEIGHT 0.05)

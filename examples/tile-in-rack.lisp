@@ -10,7 +10,9 @@
 (load (merge-pathnames "../src/boot.lisp" *load-truename*))
 (in-package :supergrip-user)
 
-(cl:setq *knowledge* (load-knowledge :hand (merge-pathnames "further-work/" *load-truename*)))
+(cl:setq *knowledge* (load-knowledge
+                      :hand (merge-pathnames "further-work/"
+                                             (uiop:pathname-directory-pathname *load-truename*))))
 
 (setq box '((SIZE 12 2 8)
             (WEIGHT 0.1)
