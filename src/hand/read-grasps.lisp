@@ -321,6 +321,10 @@ coordinates that the turn changes are always 0."
 
 (defun computed-p (node) (eq (node-kind node) :computed))
 
+(defun computes-p (grasp)
+  "True if GRASP asks for a computation."
+  (or (computed-p (draft-wrench (grasp-draft grasp))) (computed-p (draft-twist (grasp-draft grasp)))))
+
 (defun contact-points (contacts &optional mirrors)
   "Return where CONTACTS are, lists of a grasp face and two lengths, after mirrors along the axes MIRRORS.
 A length that varies is equal to itself alone, and not to its mirror image."

@@ -37,9 +37,10 @@
   "One value of the box of PLAN, that of the key ROW, at INDEX if it has several, which varies: it
 is FROM now, and may be LEAST to MOST.  KNOWN maps what is known of a box (see LINE-FACTS) to what
 follows from it; FORMS maps a grasp and the curves that its forms start from to what they give;
-COUNT counts the intervals looked at; SURE is false if some were left out."
+COUNT counts the intervals looked at, of which PATIENCE are halved to the end; SURE is false if some
+were left out, and the line was looked at in STEPS."
   plan row (index 0) (from 0d0) (least 0d0) (most 0d0) (known '())
-  (forms (make-hash-table :test #'equal)) (count 0 :type fixnum) (sure t))
+  (forms (make-hash-table :test #'equal)) (count 0 :type fixnum) (sure t) (steps 0) (patience 0))
 
 (defstruct prospect
   "A candidate, GRASP in MATCHING, along a line: POSSIBLE, a test, and QUALITY are curves.  ALWAYS

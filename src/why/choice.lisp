@@ -178,7 +178,7 @@ choice to change."
          (format stream "No single need, friction or weight would change the choice.~%"))
         (t (format stream "What would change the choice is searched for by the paper's index ~
                            only.~%")))
-  (write-stepped (choice-stepped answer) stream))
+  (write-stepped (choice-stepped answer) (choice-plan answer) stream))
 
 (defgeneric write-force-limit (limit stream)
   (:documentation "Write what limits u_w, LIMIT, or nothing for NIL.")

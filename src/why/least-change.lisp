@@ -16,6 +16,18 @@
 
 (defconstant +steps+ 500 "The steps of a line that is not searched throughout.")
 
+(defconstant +most-dear-intervals+ 60 "The same as +MOST-INTERVALS+ where plans take milliseconds.")
+(defconstant +dear-steps+ 40 "The same as +STEPS+ there.")
+
+(defun dear-p (plan)
+  "True if a plan like PLAN takes milliseconds: a grasp of its knowledge asks for computations."
+  (loop for grasp in (knowledge-grasps (plan-knowledge plan))
+          thereis (computes-p grasp)))
+
+(defun step-count (plan)
+  "Return the steps of a line of PLAN that is not searched throughout."
+  (if (dear-p plan) +dear-steps+ +steps+))
+
 (defconstant +most-at-once+ 0.01d0 "What a change that comes with anything above 0 is tried with.")
 (defconstant +least-above-0+ 1d-6
   "The least number above 0 that is looked at: where less is needed, Q is so great that rounding
@@ -263,8 +275,8 @@ those of the prospects that may be the best, if the given ones, of PROSPECTS, ar
              (or (curve-opaque (prospect-possible prospect))
                  (curve-opaque (prospect-quality prospect)))))
       (or (<= width (max 1d-12 (* +resolution+ (max near far))))
-          (and (or (>= (line-count line) +most-intervals+) (some #'opaque-p prospects))
-               (<= width (/ (line-most line) +steps+))
+          (and (or (>= (line-count line) (line-patience line)) (some #'opaque-p prospects))
+               (<= width (/ (line-most line) (line-steps line)))
                (progn (setf (line-sure line) nil) t))))))
 
 (defun first-place (line goal near far &optional facts prospects)
@@ -480,10 +492,13 @@ there, a size where the box still has its centre of mass inside."
 says."
   (loop with forms = (make-hash-table :test #'equal)
         with box = (plan-box plan)
+        with steps = (step-count plan)
+        with patience = (if (dear-p plan) +most-dear-intervals+ +most-intervals+)
         for row in (remove-if-not (lambda (row) (funcall (box-key-reader row) box)) rows)
         append (loop for index below (value-count row)
                      for from = (value-at box row index)
                      collect (make-line :plan plan :row row :index index :from from :forms forms
+                                        :steps steps :patience patience
                                         :least (line-start box row index)
                                         :most (line-end plan goal row index from)))))
 
@@ -499,10 +514,10 @@ LINE-END says; and the names of those values that were only looked at in steps."
               collect (value-name (line-row line) (line-index line)) into stepped
             finally (return (values changes stepped))))))
 
-(defun write-stepped (names stream)
-  "Write that the values with NAMES were only looked at in steps, if there are any."
+(defun write-stepped (names plan stream)
+  "Write that the values of PLAN with NAMES were only looked at in steps, if there are any."
   (when names
-    (format stream "Looked at only in ~d steps: ~{~a~^, ~}.~%" +steps+ names)))
+    (format stream "Looked at only in ~d steps: ~{~a~^, ~}.~%" (step-count plan) names)))
 
 ;;; Constrained faces, and facts of the box's own
 

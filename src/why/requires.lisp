@@ -135,11 +135,11 @@ does."
                (write-face-change change answer stream))
              (dolist (change (requirement-facts answer))
                (write-fact-change change answer stream))
-             (write-stepped (requirement-stepped answer) stream))
+             (write-stepped (requirement-stepped answer) (requirement-plan answer) stream))
             (t (format stream "No change of one value, ~:[~;of one fact, ~]or of constrained ~
                                faces, makes ~a ~a.~%"
                        (declared-inputs (plan-knowledge (requirement-plan answer))) subject it)
-               (write-stepped (requirement-stepped answer) stream)
+               (write-stepped (requirement-stepped answer) (requirement-plan answer) stream)
                (when (requirement-possible answer)
                  (write-answer (requirement-possible answer) stream)))))))
 
