@@ -37,10 +37,10 @@
   "One value of the box of PLAN, that of the key ROW, at INDEX if it has several, which varies: it
 is FROM now, and may be LEAST to MOST.  KNOWN maps what is known of a box (see LINE-FACTS) to what
 follows from it; FORMS maps a grasp and the curves that its forms start from to what they give;
-COUNT counts the intervals looked at, of which PATIENCE are halved to the end; SURE is false if some
-were left out, and the line was looked at in STEPS."
+COUNT counts the intervals looked at; SURE is false if some were left out; DEAR is true if plans along
+it take milliseconds."
   plan row (index 0) (from 0d0) (least 0d0) (most 0d0) (known '())
-  (forms (make-hash-table :test #'equal)) (count 0 :type fixnum) (sure t) (steps 0) (patience 0))
+  (forms (make-hash-table :test #'equal)) (count 0 :type fixnum) (sure t) (dear nil))
 
 (defstruct prospect
   "A candidate, GRASP in MATCHING, along a line: POSSIBLE, a test, and QUALITY are curves.  ALWAYS
@@ -68,6 +68,10 @@ nothing is known."
     (if (and (eq row (line-row line)) (= index (line-index line)))
         *variable*
         (constant-curve (value-at (plan-box (line-plan line)) row index)))))
+
+(defun form-slot-p (slot)
+  "True if forms depend on what a box has in SLOT: see INPUT-CURVES."
+  (member slot '(:friction :soft-friction :size)))
 
 (defun input-curves (line matching)
   "Return the curves of the registers that box and MATCHING give."

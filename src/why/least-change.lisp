@@ -253,16 +253,25 @@ other is tried before it.  (Unless a third, tried before both, is within two tie
 
 ;;; The search along a line
 
+(defun opaque-prospect-p (prospect)
+  "True if nothing is known of PROSPECT between single places."
+  (or (curve-opaque (prospect-possible prospect)) (curve-opaque (prospect-quality prospect))))
+
+(defun prospects-at (line goal known near facts prospects)
+  "Return the prospects at NEAR, where KNOWN is known: PROSPECTS, if that is FACTS."
+  (if (equalp known facts) prospects (follows line goal known near)))
+
 (defun status (line goal near far facts prospects)
   "Return whether GOAL is true from NEAR to FAR, :YES, :NO or :MAYBE; and the FACTS there, and
 those of the prospects that may be the best, if the given ones, of PROSPECTS, are those."
   (let ((known (line-facts line near)))
     (cond ((and (/= near far) (not (equalp known (line-facts line far)))) :maybe)
           ((null (goal-winner goal)) (if (follows line goal known near) :yes :no))
-          (t (let* ((left (contenders (if (equalp known facts)
-                                          prospects
-                                          (follows line goal known near))
-                                      near far))
+          ((and (line-dear line) (some #'opaque-prospect-p (prospects-at line goal known near facts
+                                                                         prospects)))
+           ;; Their bounds say nothing, and take long.
+           (values :maybe known (prospects-at line goal known near facts prospects)))
+          (t (let* ((left (contenders (prospects-at line goal known near facts prospects) near far))
                     (winners (if (some #'prospect-always left) left (cons nil left)))
                     (true (count-if (goal-winner goal) winners)))
                (values (cond ((zerop true) :no) ((= true (length winners)) :yes) (t :maybe))
@@ -270,14 +279,13 @@ those of the prospects that may be the best, if the given ones, of PROSPECTS, ar
 
 (defun narrow-p (line near far prospects)
   "True if the interval from NEAR to FAR, where PROSPECTS may be the best, is not halved any more."
-  (let ((width (abs (- far near))))
-    (flet ((opaque-p (prospect)
-             (or (curve-opaque (prospect-possible prospect))
-                 (curve-opaque (prospect-quality prospect)))))
-      (or (<= width (max 1d-12 (* +resolution+ (max near far))))
-          (and (or (>= (line-count line) (line-patience line)) (some #'opaque-p prospects))
-               (<= width (/ (line-most line) (line-steps line)))
-               (progn (setf (line-sure line) nil) t))))))
+  (let ((width (abs (- far near)))
+        (patience (if (line-dear line) +most-dear-intervals+ +most-intervals+))
+        (steps (if (line-dear line) +dear-steps+ +steps+)))
+    (or (<= width (max 1d-12 (* +resolution+ (max near far))))
+        (and (or (>= (line-count line) patience) (some #'opaque-prospect-p prospects))
+             (<= width (/ (line-most line) steps))
+             (progn (setf (line-sure line) nil) t)))))
 
 (defun first-place (line goal near far &optional facts prospects)
   "Return the place nearest to NEAR, up to FAR, at which GOAL is true, and one before it at which
@@ -492,13 +500,12 @@ there, a size where the box still has its centre of mass inside."
 says."
   (loop with forms = (make-hash-table :test #'equal)
         with box = (plan-box plan)
-        with steps = (step-count plan)
-        with patience = (if (dear-p plan) +most-dear-intervals+ +most-intervals+)
+        with dear = (dear-p plan)
         for row in (remove-if-not (lambda (row) (funcall (box-key-reader row) box)) rows)
         append (loop for index below (value-count row)
                      for from = (value-at box row index)
                      collect (make-line :plan plan :row row :index index :from from :forms forms
-                                        :steps steps :patience patience
+                                        :dear (and dear (form-slot-p (box-key-slot row)))
                                         :least (line-start box row index)
                                         :most (line-end plan goal row index from)))))
 
