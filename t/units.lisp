@@ -368,3 +368,21 @@ something else is chosen; in finger forces and cm the limit is the same."
         do (is (equal text (supergrip:demand-text
                             (supergrip::make-demand :fits fits :surely surely :at-most at-most
                                                     :weakest "about Y"))))))
+
+(test what-is-given-comes-back-as-it-was-given
+  (let ((units (supergrip::%box-units
+                (supergrip:plan-box
+                 (supergrip:plan '((units mm n) (size 90 60 30) (mass 0.1) (u 0.6) (v 3.2)
+                                   (constrained) (force-needed (1 1 1 1 1 1))
+                                   (velocity-needed (0 0 0 0 0 0)))
+                                 :knowledge (supergrip:load-knowledge
+                                             :gripper (project-file
+                                                       "examples/hands/robotiq-3-finger.lisp"))))))
+        (state (sb-ext:seed-random-state 7)))
+    (flet ((back (number measure)
+             (supergrip::in-units (supergrip::from-units number measure units) measure units)))
+      (is (eql 0.2d0 (back 0.2d0 :force)))
+      (is (loop repeat 2000
+                for number = (/ (random 10000000 state) (expt 10d0 (random 12 state)))
+                always (loop for measure in '(:length :force :torque)
+                             always (eql number (back number measure))))))))

@@ -76,14 +76,29 @@ three torques."
 its shortest decimal: 0.006 times 100 is 0.6.  NIL if it is out of range."
   (values (bounded-rational (* factor (exact-decimal number)))))
 
+(defun rounded (rational digits)
+  "Return RATIONAL, not 0, rounded to about DIGITS significant decimal digits, exact."
+  (let ((scale (expt 10 (- digits (round (log (coerce (abs rational) 'double-float) 10d0))))))
+    (/ (round (* rational scale)) scale)))
+
+(defun exactly-back (number factor)
+  "Return the double of which FACTOR, exact, makes NUMBER: where it is there one of 15 digits, as 0.2
+and not 0.19999999999999998.  NIL if it is out of range."
+  (let* ((value (/ (exact-decimal number) factor))
+         (double (values (bounded-rational value)))
+         (short (and double (/= double 0) (values (bounded-rational (rounded value 15))))))
+    (if (and short (eql (exactly-times short factor) number))
+        short
+        double)))
+
 (defun in-units (number measure &optional (units *units*))
   "Return NUMBER, in cm or finger forces as MEASURE says, in UNITS."
   (if (or (null units) (null measure))
       number
-      (let ((factor (/ (unit-factor measure units))))
+      (let ((factor (unit-factor measure units)))
         (without-float-traps
-          (or (and (<= (abs number) +largest+) (exactly-times number factor))
-              (* number (coerce factor 'double-float)))))))
+          (or (and (<= (abs number) +largest+) (exactly-back number factor))
+              (/ number (coerce factor 'double-float)))))))
 
 (defun from-units (number measure &optional (units *units*))
   "Return NUMBER of UNITS in cm or finger forces, as MEASURE says; NIL if it is out of range."
