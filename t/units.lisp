@@ -90,6 +90,21 @@
   (is (equal '("BOX: (POSE 1) is not valid: POSE takes the place of the box centre in the world, x y z in mm, and a unit quaternion x y z w, which turns the box there: (POSE (400 0 125) (0 0 0 1))")
              (box-reports (list* '(pose 1) *parcel*)))))
 
+(test alternatives-are-in-units-too
+  (let ((knowledge (force-knowledge)) (checked 0))
+    (for-random-boxes (box 25 4106)
+      (flet ((alternatives (description)
+               (let ((plan (supergrip:plan description :knowledge knowledge)))
+                 (getf (supergrip::record-in-units
+                        (supergrip::plan-record plan :all 3)
+                        (supergrip::%box-units (supergrip:plan-box plan)))
+                       :alternatives))))
+        (loop for one in (alternatives box)
+              for other in (alternatives (box-in box :mm :n 1/10 1/20))
+              do (incf checked)
+                 (is (same-records-p one other 1/10 1/20)))))
+    (is (< 5 checked))))
+
 (defun in-short (description)
   "Return DESCRIPTION with numbers of four decimals."
   (labels ((short (part)
