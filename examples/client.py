@@ -367,7 +367,7 @@ def write_boxes(boxes):
 
 def main():
     name, program, only_boxes, options = arguments()
-    source = sys.stdin if name == "-" else open(name, newline="", encoding="utf-8-sig")
+    source = open(0 if name == "-" else name, newline="", encoding="utf-8-sig")
     with source:
         boxes = boxes_of(source, complain)
         try:

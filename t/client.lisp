@@ -133,6 +133,16 @@ executable."
       (is (null lines))
       (is (= 1 (count-if (lambda (line) (search "pass --gripper FILE" line)) (lines-of errors)))))))
 
+(test standard-input-may-begin-with-a-byte-order-mark
+  (with-python
+    (with-text-file (parts (format nil "~c~a,,~%a,60,60,60,0.1,,~%,,,,~%" (code-char #xfeff) *columns*))
+      (multiple-value-bind (status output)
+          (run-process (list "sh" "-c" "python3 \"$0\" --boxes - < \"$1\""
+                             (uiop:native-namestring (project-file "examples/client.py")) parts))
+        (is (eql 0 status))
+        (is (search "{\"name\": \"a\"" output))
+        (is (= 1 (length (lines-of output))))))))
+
 (test equal-names-are-told
   (with-python
     (multiple-value-bind (status lines errors)
