@@ -21,16 +21,11 @@
 In exact mode also, of the best grasp (see src/plan/exact.lisp):
 :BETA  (LOWER UPPER), the exact radius, LOWER certified or NIL; NIL where the task needs no force.
 :SQUEEZE :FRICTION-MARGIN  CANDIDATE-SQUEEZE, CANDIDATE-FRICTION-MARGIN.
-Of a box whose needs are absolute also
-:FITS  CANDIDATE-FITS of the best grasp: T, :FALSE or NIL.
-If the box has a POSE:
-:WORLD  where the hand of the best grasp is in the world, as :HAND: see CANDIDATE-WORLD.
-If ALL, a number, is given:
-:ALTERNATIVES  at most ALL of the possible grasps, the best first: see ALTERNATIVES.
-If REFINE:
-:REFINED  what moving the fingers of the best grasps gives: see REFINED-PART.
-Of a box with DATA
-:DATA  what it carries along.
+:FITS  if needs are absolute: CANDIDATE-FITS of the best grasp, T, :FALSE or NIL.
+:WORLD  if the box has a POSE: :HAND in the world, see CANDIDATE-WORLD.
+:ALTERNATIVES  if ALL, a number, is given: at most ALL of the possible grasps, see ALTERNATIVES.
+:REFINED  if REFINE: what moving the fingers of the best grasps gives, see REFINED-PART.
+:DATA  if the box has DATA: these.
 
 Lengths are in cm, forces in finger forces: see RECORD-IN-UNITS."
   (let* ((best (plan-best plan))
@@ -46,8 +41,11 @@ Lengths are in cm, forces in finger forces: see RECORD-IN-UNITS."
                    (further-part best contacts plan)
                    (and all (list :alternatives (alternatives plan all)))
                    (and refine (list :refined (refined-part plan)))
-                   (let ((carried (getf (%box-others (plan-box plan)) :data)))
-                     (and carried (list :data carried)))))))
+                   (carried-part (getf (%box-others (plan-box plan)) :data))))))
+
+(defun carried-part (carried)
+  "Return the part of a record that has CARRIED, what a box carries along; NIL for nothing."
+  (and carried (list :data carried)))
 
 (defun alternatives (plan most)
   "Return at most MOST of the possible grasps of PLAN, the best first: of each, a plist, what a record
@@ -138,7 +136,7 @@ PLAN, or of none.")
                  (index-part index nil nil)
                  (and all (list :alternatives nil))
                  (and refine (list :refined nil))
-                 (and carried (list :data carried)))))
+                 (carried-part carried))))
 
 (defun problems-reason (problems)
   "Return PROBLEMS in one line."
