@@ -251,3 +251,26 @@
   (is (eql 0 (search "There is no grasp to refine: "
                      (first (printed (supergrip:explain-refinement
                                       (supergrip:plan (plan-box-too-heavy)))))))))
+
+(test fingers-on-one-face-do-not-cross
+  (flet ((contact (surface &rest place) (list :surface surface :position place)))
+    (let ((contacts (list (contact "Y2" 2 -1 0) (contact "Y2" 0 -1 0) (contact "Y2" -2 -1 0)
+                          (contact "Y1" 0 1 0))))
+      (is (equalp #((3 -1 1) (1 -1 0) (-3 -1 0) (0 1 1))
+                  (supergrip::untangle (vector '(-3 -1 0) '(3 -1 1) '(1 -1 0) '(0 1 1)) contacts)))
+      (is (equalp #((2 -1 0) (0 -1 0) (-2 -1 0) (0 1 0))
+                  (supergrip::untangle (map 'vector (lambda (contact) (getf contact :position))
+                                            contacts)
+                                       contacts))
+          "who does not move"))))
+
+(test the-hand-of-a-refined-grasp-moves-with-its-fingers
+  (let* ((plan (pencil-plan))
+         (refined (getf (supergrip::plan-record plan :refine t) :refined))
+         (refinement (supergrip:refine plan))
+         (candidate (supergrip:refinement-candidate refinement))
+         (shift (supergrip::refinement-shift refinement)))
+    (is (some #'plusp (mapcar #'abs shift)))
+    (is (every #'close-to
+               (getf (getf refined :hand) :position)
+               (mapcar #'+ (supergrip:candidate-offset candidate) shift)))))

@@ -128,6 +128,8 @@
      "grasps.lisp:15: GRASP G, CONTACTS: a finger is on O2, which is not one of USED-SURFACES")
     (:GRASPS "((N1 0 0) (N2 0 0))" "((N1 0) (N2 0 0))"
      "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: a face, and its place on it along the two other axes, such as (N1 0 0)")
+    (:GRASPS "((N1 0 0) (N2 0 0))" "((N1 0 0) (N2 0 0) (N1 0 0))"
+     "grasps.lisp:15: warning: GRASP G, CONTACTS: contacts 1 and 3 are at the same place: their forces add up")
     (:GRASPS "((N1 0 0) (N2 0 0))" "()"
      "grasps.lisp:6: GRASP G, CONTACTS: CONTACTS lists no contact")
     (:GRASPS "(LIST 0 0 0 0 0 0)" "(LIST 0 0 0 0 0)"

@@ -69,7 +69,14 @@ exceed; :BETA, the exact radius, (LOWER UPPER); :CONTACTS and :HAND after the mo
               :quality-bound (refinement-quality-bound refinement)
               :beta (refinement-radius refinement)
               :contacts contacts
-              :hand (contacts-hand candidate contacts (plan-box plan)))))))
+              :hand (moved-hand (contacts-hand candidate contacts (plan-box plan))
+                                (refinement-shift refinement)))))))
+
+(defun moved-hand (hand shift)
+  "Return HAND, as CANDIDATE-HAND has it, SHIFT, along X Y Z, farther."
+  (list* :position (mapcar #'+ (getf hand :position) shift)
+         (loop for (key value) on hand by #'cddr
+               unless (eq key :position) collect key and collect value)))
 
 (defun further-part (best contacts plan)
   "Return the part of a record that tells more of the grasp BEST, with CONTACTS, of PLAN, or of none."

@@ -172,7 +172,14 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
     (cond ((null contacts) (complain *form* "CONTACTS lists no contact"))
           ((nthcdr +most-contacts+ contacts)
            (complain *form* "CONTACTS lists more than ~d contacts" +most-contacts+))
-          (t (let ((parsed (loop for contact in contacts
+          (t (loop for (contact . others) on contacts
+                   for number from 1
+                   for other = (position contact others :test #'equal)
+                   when other
+                     do (complain *form* '(:warning "contacts ~d and ~d are at the same place: their ~
+                                                     forces add up")
+                                  number (+ number 1 other)))
+             (let ((parsed (loop for contact in contacts
                                  collect (parse-contact contact used scope))))
                (and (notany #'null parsed) parsed))))))
 

@@ -33,6 +33,15 @@ within 1 %."
   "True if the fingers of REFINEMENT stand elsewhere than the plan had them."
   (not (eq (refinement-home refinement) (refinement-contacts refinement))))
 
+(defun refinement-shift (refinement)
+  "Return how far the middle of the fingers of REFINEMENT moved, along X Y Z, in cm."
+  (let ((count (length (refinement-home refinement))))
+    (flet ((middle (contacts)
+             (mapcar (lambda (sum) (/ sum count))
+                     (reduce (lambda (a b) (mapcar #'+ a b)) contacts
+                             :key (lambda (contact) (getf contact :position))))))
+      (mapcar #'- (middle (refinement-contacts refinement)) (middle (refinement-home refinement))))))
+
 (define-printing (refinement refinement) "~a (~{~a~^ ~}) Q~,3f -> ~,3f, at most ~,3f"
   (candidate-grasp (refinement-candidate refinement))
   (candidate-matching (refinement-candidate refinement))
@@ -96,14 +105,39 @@ its radius; the bound of all radii; and the radius that climbing from the plan's
             (values (and (first after) (> (first after) (max 0d0 (second before))) placement)
                     after (max bound (second before) (second after)) nearby)))))))
 
+(defun square-of-way (from to)
+  "Return the square of the distance of the places FROM and TO, lists of three."
+  (reduce #'+ (mapcar (lambda (a b) (expt (- a b) 2)) from to)))
+
+(defun untangle (places contacts)
+  "Exchange PLACES, a vector, of CONTACTS on the same face while that shortens the ways of two fingers
+together, so that they do not cross.  Return PLACES."
+  (flet ((shorter-exchanged-p (a one b other)
+           (let ((a (getf a :position)) (b (getf b :position)))
+             (< (+ (square-of-way a other) (square-of-way b one))
+                (- (+ (square-of-way a one) (square-of-way b other)) +tie+)))))
+    (loop while (loop for (a . others) on contacts
+                      for i from 0
+                      thereis (loop for b in others
+                                    for j from (1+ i)
+                                    when (and (equal (getf a :surface) (getf b :surface))
+                                              (shorter-exchanged-p a (aref places i)
+                                                                   b (aref places j)))
+                                      do (rotatef (aref places i) (aref places j))
+                                         (return t)))
+          finally (return places))))
+
 (defun placed-contacts (contacts placement)
-  "Return CONTACTS, plists, at PLACEMENT."
-  (loop for contact in (mapcar #'copy-list contacts)
-        for place from 0 by 3
-        do (setf (getf contact :position)
-                 (mapcar #'without-sign-of-zero
-                         (coerce (subseq placement place (+ place 3)) 'list)))
-        collect contact))
+  "Return CONTACTS, plists, at PLACEMENT.  Fingers on one face are alike: which of them takes which place
+there is chosen so that their ways are short."
+  (let ((places (coerce (loop for place from 0 below (length placement) by 3
+                              collect (map 'list #'without-sign-of-zero
+                                           (subseq placement place (+ place 3))))
+                        'vector)))
+    (loop for contact in (mapcar #'copy-list contacts)
+          for place across (untangle places contacts)
+          do (setf (getf contact :position) place)
+          collect contact)))
 
 (defun refine-candidate (candidate plan gap regions)
   "Return the REFINEMENT of CANDIDATE, a possible one of PLAN."
