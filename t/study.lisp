@@ -289,7 +289,7 @@ first."
         for new = (supergrip:plan-quality (supergrip:difference-new difference))
         count (and old (or (null new) (< new (- old 1d-9))))))
 
-(defun print-times (knowledge boxes)
+(defun print-plan-times (knowledge boxes)
   "Print how long plans of BOXES by KNOWLEDGE take, at first and again, beside the shipped ones."
   (let ((first (loop for box in boxes collect (microseconds (list box) knowledge)))
         (ratios (loop for box in boxes
@@ -313,7 +313,7 @@ first."
                    boxes)
     (format t "lost by LATERAL and WIDE-CORNER: ~d~%"
             (lost (print-changes "with LATERAL and WIDE-CORNER" seven further boxes)))
-    (print-times (supergrip:load-knowledge :hand directory) (subseq boxes 300 500))))
+    (print-plan-times (supergrip:load-knowledge :hand directory) (subseq boxes 300 500))))
 
 ;;; What contacts can really do
 
