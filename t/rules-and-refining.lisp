@@ -144,6 +144,20 @@ boxes where all ways have a grasp."
 
 ;;; Refined grasps and a grid of placements
 
+(defun grid-placements (freedom around)
+  "Return the legal placements of FREEDOM on the finest grid that has at most 5,000.  Where fingers must
+stay close together on a large face, a grid of the face may have none; then it covers a part of it, near
+the placement AROUND."
+  (let ((supergrip::+most-scanned+ 5000))
+    (loop for part in '(1 1/4 1/16)
+          thereis (loop with near = (supergrip::freedom-near freedom around part)
+                        with finest = nil
+                        for count from 2 to 16 by 2
+                        for grid = (supergrip::lattice near count)
+                        while (or grid (null finest))
+                        do (setf finest grid)
+                        finally (return finest)))))
+
 (defun grid-ratio (refinement)
   "Return by how much the best placement on a grid of up to 5,000 legal ones is better than REFINEMENT: the
 ratio of the radii, certified; and how many placements the grid has.  The cuts that were found may rule
@@ -151,29 +165,22 @@ placements out: no placement is better than its cuts say."
   (let* ((candidate (supergrip:refinement-candidate refinement))
          (plan (supergrip:refinement-plan refinement))
          (base (supergrip::knowledge-graspbase (supergrip:plan-knowledge plan)))
-         (supergrip::+most-scanned+ 5000))
+         (placement (supergrip::placement-of (supergrip:refinement-contacts refinement))))
     (supergrip::with-replay (workspace candidate plan)
       (multiple-value-bind (refining unit) (supergrip::start-refining candidate workspace base)
-        (let* ((freedom (supergrip::r-freedom refining))
-               (grid (loop with finest = nil
-                           for count from 2 to 16 by 2
-                           for grid = (supergrip::lattice freedom count)
-                           while (or grid (null finest))
-                           do (setf finest grid)
-                           finally (return finest)))
+        (let* ((grid (grid-placements (supergrip::r-freedom refining) placement))
                (ours (* unit (first (supergrip:refinement-radius refinement)))) (best ours))
-          (supergrip::ask refining (supergrip::placement-of
-                                    (supergrip:refinement-contacts refinement))
-                          0.01d0 1d-3 3000)
+          (supergrip::ask refining placement 0.01d0 1d-3 3000)
           (dolist (placement grid)
             (when (> (supergrip::cuts-radius refining placement) (* 1.001d0 best))
               (let ((lower (nth-value 1 (supergrip::ask refining placement 2d-3 1d-4 30000))))
                 (when (and lower (> lower best)) (setf best lower)))))
           (values (/ best ours) (length grid)))))))
 
-(defun print-grid (count)
-  "Print how the best placement on a grid compares with COUNT refined grasps, of four kinds of boxes."
-  (let ((ratios '()) (sizes '()) (times '()) (state (sb-ext:seed-random-state 7)))
+(defun print-grid (count seed)
+  "Print how the best placement on a grid compares with COUNT refined grasps, of four kinds of boxes, made
+from SEED."
+  (let ((ratios '()) (sizes '()) (times '()) (state (sb-ext:seed-random-state seed)))
     (loop for number from 0
           until (= (length ratios) count)
           do (let* ((maker (nth (mod number 4) '(random-box table-box household-box rubber-box)))
@@ -192,7 +199,9 @@ placements out: no placement is better than its cuts say."
       (format t "| --- | --- | --- | --- | --- | --- | --- |~%")
       (line "best of the grid / refined" ratios)
       (line "placements in the grid" sizes)
-      (line "ms to refine" times))))
+      (line "ms to refine" times)
+      (format t "~%The best of the grid is within 2 % in ~d of ~d.~%"
+              (count 1.02d0 ratios :test #'>=) count))))
 
 ;;; What the page shows
 

@@ -10,7 +10,7 @@
 ;;;; sbcl --script t/study.lisp lying                       what changes when the frame of a box is turned
 ;;;; sbcl --script t/study.lisp index                       u_w beside the exact radius
 ;;;; sbcl --script t/study.lisp refined [COUNT]              rules, trying everything, and refining
-;;;; sbcl --script t/study.lisp grid [COUNT]                 refined grasps against all places of a grid
+;;;; sbcl --script t/study.lisp grid [COUNT [SEED]]          refined grasps against all places of a grid
 ;;;; sbcl --script t/study.lisp radii | python3 t/radii.py   exact radii by other means
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
@@ -517,7 +517,8 @@ another grasp, or one elsewhere on the box, is then the best."
            (multiple-value-bind (ways refinements) (print-study count)
              (print-times ways)
              (draw-if-possible ways refinements))))
-        ((equal what "grid") (print-grid (parse-integer (or (first files) "200"))))
+        ((equal what "grid") (print-grid (parse-integer (or (first files) "200"))
+                                           (parse-integer (or (second files) "7"))))
         ((equal what "radii") (print-radii 300 (sb-ext:seed-random-state 1)))
         ((equal what "compare") (apply #'print-comparison files))
         (t

@@ -73,21 +73,23 @@ unit of its needs."
 
 (defun certify (refining placement)
   "Return the exact radius of REFINING at PLACEMENT, (LOWER UPPER), certified within 0.1 % if possible, else
-1 %; LOWER is NIL if that is not possible either."
+0.3 % or 1 %; LOWER is NIL if that is not possible either."
   (let ((best nil))
-    (loop for gap in '(1d-3 1d-2)
+    (loop for gap in '(1d-3 3d-3 1d-2)
           do (multiple-value-bind (upper lower) (ask refining placement gap (* 0.2d0 gap) 30000)
                (setf best (list lower upper))
                (when lower (return))))
     best))
 
 (defun scan-and-climb (refining placement value)
-  "Return PLACEMENT, with the radius VALUE, or a better one, found from a lattice; and its radius."
-  (multiple-value-bind (other radius) (scan refining placement value)
-    (when (> radius value)
-      (multiple-value-bind (other radius) (climb-surely refining other radius)
-        (when (> radius value) (setf placement other value radius))))
-    (values placement value)))
+  "Return PLACEMENT, with the radius VALUE, or a better one, found from a lattice of all legal placements
+and then from one of those near the best; and its radius."
+  (dolist (part '(1 1/2))
+    (multiple-value-bind (other radius) (scan refining part placement value)
+      (when (> radius value)
+        (multiple-value-bind (other radius) (climb-surely refining other radius)
+          (when (> radius value) (setf placement other value radius))))))
+  (values placement value))
 
 (defun better-places (refining before gap regions)
   "Return a placement of REFINING that is surely better than the plan's, whose radius is BEFORE, or NIL;

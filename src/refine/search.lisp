@@ -72,19 +72,27 @@ more than VALUE: a list of (RADIUS . PLACEMENT), RADIUS the least that the cuts 
                        when (and radius (> radius value))
                          collect (cons radius new)))))
 
+(defun most-allowed (ways least)
+  "Return those of WAYS, a list of (RADIUS . PLACEMENT), with a RADIUS above LEAST, the greatest first."
+  (stable-sort (remove least ways :key #'car :test #'>=) #'> :key #'car))
+
+(defun allow-less (ways refining)
+  "Let the radii of WAYS be no greater than the latest cut of REFINING allows."
+  (let ((cut (first (r-cuts refining))))
+    (dolist (way ways)
+      (setf (car way) (min (car way) (cut-power refining cut (cdr way)))))))
+
 (defun first-above (refining ways least most)
   "Ask for the radii of at most MOST of WAYS, (RADIUS . PLACEMENT), the most promising first, until one is
 above LEAST.  Return its placement and its radius, or NIL.  What is asked makes cuts, which rule out
 others."
   (loop repeat most
         while (may-ask-p refining)
-        do (setf ways (stable-sort (remove least ways :key #'car :test #'>=) #'> :key #'car))
+        do (setf ways (most-allowed ways least))
            (when (null ways) (return nil))
            (let* ((new (cdr (pop ways))) (radius (radius-at refining new least)))
              (when (> radius least) (return (values new radius)))
-             (dolist (way ways)
-               (setf (car way) (min (car way)
-                                    (cut-power refining (first (r-cuts refining)) (cdr way))))))))
+             (allow-less ways refining))))
 
 (defun widest (low high)
   "Return the place where LOW and HIGH, vectors, differ most, and by how much."
