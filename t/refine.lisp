@@ -252,6 +252,36 @@
                      (first (printed (supergrip:explain-refinement
                                       (supergrip:plan (plan-box-too-heavy)))))))))
 
+(test without-a-plan-the-last-one-is-refined
+  (let ((supergrip::*plan* (pencil-plan)))
+    (is (eq supergrip::*plan* (supergrip:refinement-plan (supergrip:refine))))
+    (is (equal (printed (supergrip:explain-refinement supergrip::*plan*))
+               (printed (supergrip:explain-refinement)))))
+  (let ((supergrip::*plan* nil))
+    (is (equal "there is no plan yet: call (forward-chain) first"
+               (error-text (supergrip:refine))))))
+
+(test the-best-of-the-plan-is-told-of-if-another-is-best-refined
+  (let* ((plan (loop for plan in (graspable-plans 40 3)
+                     unless (eq (supergrip:plan-best plan)
+                                (supergrip:refinement-candidate
+                                 (supergrip:refine plan :count 2 :regions 0)))
+                       return plan))
+         (best (supergrip:plan-best plan))
+         (own (supergrip:refine plan :count 1 :regions 0)))
+    (is (equal (format nil "The plan's best grasp is ~a (~{~a~^ ~}).  Its exact Q is ~,3f~a."
+                       (supergrip:candidate-grasp best) (supergrip:candidate-matching best)
+                       (supergrip:refinement-quality-before own)
+                       (if (supergrip:refinement-moved-p own)
+                           (format nil ", and ~,3f with its fingers moved"
+                                   (supergrip:refinement-quality own))
+                           "; its fingers stay"))
+               (first (last (printed (supergrip:explain-refinement plan :count 2
+                                                                        :regions 0))))))
+    (is (null (search "The plan's best grasp"
+                      (format nil "~{~a~}" (printed (supergrip:explain-refinement
+                                                     plan :count 1 :regions 0))))))))
+
 (test fingers-on-one-face-do-not-cross
   (flet ((contact (surface &rest place) (list :surface surface :position place)))
     (let ((contacts (list (contact "Y2" 2 -1 0) (contact "Y2" 0 -1 0) (contact "Y2" -2 -1 0)

@@ -167,25 +167,28 @@ there is chosen so that their ways are short."
     (and (some #'plusp (%box-force box))
          (computable-p (contacts-grip candidate workspace) (gravity-on box)))))
 
-(defun refine (plan &key (count 3) (gap 0.02d0) (regions 1000))
-  "Move the fingers of the COUNT best grasps of PLAN, so that their exact quality is as great as possible,
-and return the best REFINEMENT, or NIL if the plan has no grasp.  The second value is the list of all,
-the best first.
-
-The exact quality is Q with the exact radius (see EXACT-RADIUS) in the place of u_w; u_t, a judgement
-of the grasp, stays.  Fingers stay on their faces and within what hand and faces allow.  They move only
-where the new places are surely better: the certified radius there is above the upper value before.
-It looks for the best places until it has proved that none is better by more than GAP, or has looked at
-REGIONS of them."
+(defun refine-grasps (plan &key (count 3) (gap 0.02d0) (regions 1000))
+  "Return the REFINEMENTs of the COUNT best grasps of PLAN, the best first: see REFINE."
   (unless (typep count '(integer 1))
     (refuse-argument "count is ~a; it is how many grasps to refine, 1 or more" (form-text count)))
   (unless (typep regions '(and fixnum (integer 0)))
     (refuse-argument "regions is ~a; it is a number of regions, such as 1000" (form-text regions)))
   (unless (and (realp gap) (as-double gap) (<= 0 gap 1))
     (refuse-argument "gap is ~a; it is a number from 0 to 1, such as 0.02" (form-text gap)))
-  (let* ((refinements (without-float-traps
-                        (loop repeat count
-                              for candidate in (plan-possible (need-plan plan))
-                              collect (refine-candidate candidate plan (as-double gap) regions))))
-         (sorted (stable-sort refinements #'> :key #'refinement-quality)))
-    (values (first sorted) sorted)))
+  (let ((refinements (without-float-traps
+                       (loop for candidate in (best-grasps (need-plan plan) count)
+                             collect (refine-candidate candidate plan (as-double gap) regions)))))
+    (stable-sort refinements #'> :key #'refinement-quality)))
+
+(defun refine (&optional (plan (last-plan)) &rest keys)
+  "Move the fingers of the best grasps of PLAN, so that their exact quality is as great as possible, and
+return the best REFINEMENT, or NIL if the plan has no grasp.  The second value is the list of all, the
+best first.  KEYS are :COUNT, how many grasps, or else 3; :GAP, or else 0.02; :REGIONS, or else 1000.
+
+The exact quality is Q with the exact radius (see EXACT-RADIUS) in the place of u_w; u_t, a judgement
+of the grasp, stays.  Fingers stay on their faces and within what hand and faces allow.  They move only
+where the new places are surely better: the certified radius there is above the upper value before.
+It looks for the best places until it has proved that none is better by more than the part GAP, or has
+looked at REGIONS regions of them."
+  (let ((refinements (apply #'refine-grasps plan keys)))
+    (values (first refinements) refinements)))

@@ -58,11 +58,27 @@
               (refinement-quality-bound answer)
               (gain-text after (refinement-quality-bound answer))))))
 
-(defun explain-refinement (&optional (plan *plan*) &rest keys)
+(defun write-plans-best (refinement refinements stream)
+  "Write what REFINEMENTS, all that were made, say of the plan's best grasp, if REFINEMENT is not of it."
+  (let ((best (find (plan-best (refinement-plan refinement)) refinements
+                    :key #'refinement-candidate)))
+    (unless (or (null best) (eq best refinement))
+      (format stream "The plan's best grasp is ~a (~{~a~^ ~}).  Its exact Q is ~:[~,3f~*; its fingers ~
+                      stay~;~,3f, and ~,3f with its fingers moved~].~%"
+              (candidate-grasp (refinement-candidate best))
+              (candidate-matching (refinement-candidate best))
+              (refinement-moved-p best)
+              (refinement-quality-before best) (refinement-quality best)))))
+
+(defun explain-refinement (&optional (plan (last-plan)) &rest keys)
   "Refine PLAN as REFINE does, with the same KEYS; print what that gained, in words, of the best grasp, and
-return its REFINEMENT.  PLAN may be a refinement that REFINE has returned."
-  (let ((refinement (if (refinement-p plan) plan (apply #'refine plan keys))))
-    (if refinement
-        (print-answer refinement)
-        (format t "There is no grasp to refine: ~a~%" (plan-reason plan)))
-    refinement))
+return its REFINEMENT.  If the plan's best was another grasp, it is told of too.  PLAN may be a
+refinement that REFINE has returned."
+  (if (refinement-p plan)
+      (print-answer plan)
+      (let* ((refinements (apply #'refine-grasps plan keys)) (best (first refinements)))
+        (if best
+            (progn (print-answer best)
+                   (write-plans-best best refinements *standard-output*))
+            (format t "There is no grasp to refine: ~a~%" (plan-reason plan)))
+        best)))
