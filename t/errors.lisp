@@ -186,7 +186,7 @@
   (uiop:with-temporary-file (:stream out :pathname file :external-format :utf-16le)
     (write-string (file-text "rules.lisp") out)
     :close-stream
-    (is (equal (list (format nil "~a: this file is UTF-16; UTF-8 is read, which iconv -f UTF-16 -t UTF-8 makes of it"
+    (is (equal (list (format nil "~a: this file is UTF-16, but must be UTF-8; iconv -f UTF-16 -t UTF-8 converts it"
                              (uiop:native-namestring file)))
                (problem-texts (lambda () (supergrip:load-knowledge :rules file)))))))
 

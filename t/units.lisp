@@ -264,7 +264,7 @@
             ((mass (mass -1))
              "BOX: (MASS -1) is not valid: MASS takes one number, 0 or more, in kg: (MASS 1.2)")
             ((u (weight 1))
-             "BOX: MASS stands in the place of WEIGHT, and both are given: leave out one"
+             "BOX: MASS and WEIGHT are both given; give only one of them"
              "BOX: U is missing; it takes one coefficient of friction, 0 or more: (U 0.8)")
             ((mass nil)
              "BOX: WEIGHT is missing; it takes one number, 0 or more, in N: (WEIGHT 0.2)")
@@ -273,9 +273,9 @@
             ((force-needed (force-needed (1 2 3)))
              "BOX: (FORCE-NEEDED (1 2 3)) is not valid: FORCE-NEEDED takes a list of six numbers, 0 or more, in N and N mm: (FORCE-NEEDED (1 0.8 0.8 0.3 1 1))")
             ((mass (mass 1d300))
-             "BOX: (MASS 1.0e300) can't be computed with: in cm, or N, it would be out of range, from 1e-300 to 1e300")
+             "BOX: (MASS 1.0e300) is out of range: in cm or N, it must lie between 1e-300 and 1e300")
             ((units (units m n) size (size 1 1 1d300))
-             "BOX: (SIZE 1 1 1.0e300) can't be computed with: in cm, or N, it would be out of range, from 1e-300 to 1e300"))
+             "BOX: (SIZE 1 1 1.0e300) is out of range: in cm or N, it must lie between 1e-300 and 1e300"))
           do (is (equal report (first (apply #'reports changes))))))
   (is (equal '("BOX: UNITS is given twice") (box-reports (cons '(units m n) *parcel*)))))
 
