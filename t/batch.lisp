@@ -60,7 +60,7 @@
             ("a bracket too few in an array" ("[" ,(remove #\] pencil :count 1) ", " ,pencil "]")
              "line 1, column" "grasp")
             ("a quote too few" (,(remove #\" pencil :count 1) "
-" ,pencil) "line 1, column 2: s stands where a key in double quotes should" "grasp")
+" ,pencil) "line 1, column 2: a key in double quotes was expected, not s" "grasp")
             ("words" ("hello {
 " ,pencil) "line 1, column 1: hello is not JSON" "line 1, column 7: this object is never closed before line 2" "grasp")
             ("numbers" ("1 2 3
@@ -183,9 +183,9 @@
               ("a line of a log" ("12:00 started" ,line ,*json-pencil*) "line 1" "grasp")
               ("a log in brackets" ("[INFO] started" ,line ,*json-pencil*) "line 1" "line 1" "grasp")
               ("a log before lists" ("[12:00] started" ,line ,*pencil*) "line 1" "grasp")
-              ("UTF-16" (,(octets-in *json-pencil* :utf-16le 255 254)) "line 1, column 1: this is UTF-16")
+              ("UTF-16" (,(octets-in *json-pencil* :utf-16le 255 254)) "line 1, column 1: this is UTF-16, but must be UTF-8")
               ("UTF-16, then UTF-8" (,(octets-in (format nil "~a~%" *pencil*) :utf-16be) ,*pencil*)
-               "line 1, column 1: this is UTF-16" "grasp")
+               "line 1, column 1: this is UTF-16, but must be UTF-8" "grasp")
               ("no UTF-16" (#(255 254) ,line ,*pencil*) "line 1, column 1: what is not UTF-8" "grasp")
               ("no name" (,(changed *json-pencil* "{" "{\"name\": null, ")) "grasp")
               ("no name in Lisp" (,(changed *pencil* "(" "((NAME NIL) ")) "grasp"))
@@ -276,7 +276,7 @@
             ("1e999" ,(with "0.8" "1e999") "1e999 is out of range")
             ("NaN" ,(with "0.8" "NaN") "NaN is not JSON")
             ("Infinity" ,(with "0.8" "Infinity") "Infinity is not JSON")
-            ("a ratio" ,(with "0.8" "1/2") "/ stands where a comma or } should")
+            ("a ratio" ,(with "0.8" "1/2") "a comma or } was expected, not /")
             ("negative zero" ,(with "0.2" "-0.0") :planned)
             ("a million digits" ,(with "0.8" (make-string 1000000 :initial-element #\7))
              "longer than 65536 characters")
@@ -402,7 +402,8 @@
       (is (equal records (shipped "examples/boxes.jsonl"))))))
 
 (test marks-before-a-record-end-the-one-that-is-open
-  ;; A byte order mark and the separator of JSON text sequences, in any order, are no part of a record.
+  ;; A byte order mark and the separator of JSON text sequences, in any order, are no part of a
+  ;; record.
   (dolist (marks (list "" (string (code-char #xfeff)) (string (code-char 30))
                        (format nil "~c~c" (code-char #xfeff) (code-char 30))
                        (format nil "~c~c" (code-char 30) (code-char #xfeff))))

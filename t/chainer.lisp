@@ -1,4 +1,5 @@
-;;;; chainer.lisp -- rules without grasps: matching, negation, order, and all that is wrong with a rule.
+;;;; chainer.lisp -- rules without grasps: matching, negation, order, and all that is wrong with a
+;;;; rule.
 
 (in-package :supergrip-test)
 (define-suite chainer "Rules without grasps: matching, negation, order, and all that is wrong with a rule.")

@@ -1,9 +1,9 @@
 ;;;; documents.lisp -- what README.md and docs/ show is what happens.
 ;;;;
-;;;; A `lisp` block that begins with the prompt * is a transcript of the REPL, and is typed again; each
-;;;; document starts from nothing.  Another `lisp` block is data, and must be valid; a `json` block is
-;;;; a box.  In a `console` block each line that begins with $ is a command; it runs in the project's
-;;;; directory.
+;;;; A `lisp` block that begins with the prompt * is a transcript of the REPL, and is typed again;
+;;;; each document starts from nothing.  Another `lisp` block is data, and must be valid; a `json`
+;;;; block is a box.  In a `console` block each line that begins with $ is a command; it runs in the
+;;;; project's directory.
 
 (in-package :supergrip-test)
 (define-suite documents "What README.md and docs/ show is what happens.")
@@ -214,8 +214,8 @@
         while to collect (subseq text from to)))
 
 (defun linked-files (document)
-  "Return the files that DOCUMENT names: in its links, relative to it, and between backquotes, relative
-to the project, if they are in one of *DIRECTORIES*."
+  "Return the files that DOCUMENT names: in its links, relative to it, and between backquotes,
+relative to the project, if they are in one of *DIRECTORIES*."
   (let ((text (file-text document)))
     (append
      (loop for link in (texts-between "](" #\) text)

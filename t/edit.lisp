@@ -240,7 +240,7 @@ The knowledge in force stays as it was."
       (supergrip:edit '(rule grip9 (if (parallel (s1 s2)) (large (s1 s2)))
                         (then (try pinch-3-parallel (s1 s2 ? ? ? ?)))))
       (is (equal '("12 x 2 x 2 cm: PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1) Q=0.770, was PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1) Q=0.860"
-                   "1 of 2 boxes differ: 0 in verdict, 1 in grasp, 0 in quality.")
+                   "1 of 2 boxes differs: 0 in verdict, 1 in grasp, 0 in quality.")
                  (printed (supergrip:compare-knowledge old supergrip:*knowledge* boxes)))))))
 
 (test comparing-takes-knowledge-and-boxes

@@ -244,9 +244,9 @@
                                       (grasp-text :wrench wrench)))))
     (is (null (reports 10 "((F9 1) 1 1 1 1 1)")))
     ;; The helper that goes too far is named, and nobody who calls it.
-    (is (equal '("grasps.lisp:13: DEFUN F10: more than 8000 steps, with the helpers that it calls put in their places")
+    (is (equal '("grasps.lisp:13: DEFUN F10: more than 8000 steps; each call of a helper counts as all steps of the helper")
                (reports 20 "((F19 1) 1 1 1 1 1)")))
-    (is (equal '("grasps.lisp:16: GRASP G, WRENCH: more than 8000 steps, with the helpers that it calls put in their places")
+    (is (equal '("grasps.lisp:16: GRASP G, WRENCH: more than 8000 steps; each call of a helper counts as all steps of the helper")
                (reports 10 "((F9 1) (F9 2) (F9 3) 1 1 1)"))))
   (is (equal '("grasps.lisp:5: GRASP G2, WRENCH: more than 16000 different numbers in one file")
              (knowledge-reports

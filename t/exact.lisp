@@ -1,4 +1,5 @@
-;;;; exact.lisp -- exact mode: what the contacts can really do decides, and the choice is the best by it.
+;;;; exact.lisp -- exact mode: what the contacts can really do decides, and the choice is the best
+;;;; by it.
 
 (in-package :supergrip-test)
 (define-suite exact
@@ -50,7 +51,8 @@
       (is (< (count :open (outcomes :exact)) (count :open (outcomes :paper)))))))
 
 (test a-candidate-is-asked-about-in-the-plan-that-is-given
-  "What a plan has certified is said again; in a plan for another box the same candidate is another."
+  "What a plan has certified is said again; in a plan for another box the same candidate is
+another."
   (let* ((plan (exact-plan (paper-box))) (best (supergrip:plan-best plan))
          (other (supergrip:plan (changed-box :u 0.5d0))))
     (flet ((radius (plan)
@@ -267,7 +269,8 @@ certified alone and looked at from STARTS; how many there are; and the last valu
 ;;; Explanations: each figure is computed in another way
 
 (defun powers-at (case motion)
-  "Return what pressing, friction, torques and the weight of CASE do at most in MOTION, four numbers."
+  "Return what pressing, friction, torques and the weight of CASE do at most in MOTION, four
+numbers."
   (destructuring-bind (contacts u v need gravity) case
     (declare (ignore need))
     (loop with turn = (nthcdr 3 motion)
@@ -414,7 +417,8 @@ certified alone and looked at from STARTS; how many there are; and the last valu
     (is (not (traps-matter-p (lambda () (plan-figures (exact-plan box))))))))
 
 (test extreme-boxes-have-records-by-either-index
-  "Whatever sizes, friction, weight and needs are, a plan has a record, and no number of it is none."
+  "Whatever sizes, friction, weight and needs are, a plan has a record, and no number of it is
+none."
   (let ((state (sb-ext:seed-random-state 3)))
     (flet ((one-of (&rest numbers) (nth (random (length numbers) state) numbers)))
       (dotimes (i 150)

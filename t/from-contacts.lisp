@@ -29,9 +29,9 @@
           ("(X 4)" "REACH: X is not an axis: REACH is along N, O or A")
           ("(A2 4)" "REACH: A2 is not an axis: REACH is along N, O or A")
           ("(A 4 A 5)" "REACH: the reach along A is given twice")
-          ("(A 0)" "REACH: the reach along A is 0; it is a length above 0")
-          ("(N 4)" "REACH: the reach along N: both N1 and N2 are used, so the hand comes over neither; leave N out")
-          ("(O 4)" "REACH: the reach along O: neither O1 nor O2 is used, so the hand comes over neither; leave O out")
+          ("(A 0)" "REACH: the reach along A is 0, but must be above 0")
+          ("(N 4)" "REACH: the hand does not come over N1 or N2, since both are used; leave the reach along N out")
+          ("(O 4)" "REACH: the hand does not come over O1 or O2, since neither is used; leave the reach along O out")
           ("(A FINGER-LENGHT)" "REACH: unknown name FINGER-LENGHT (did you mean FINGER-LENGTH?); known are U, V, the gripper's dimensions, a helper's parameters and what LET* binds")
           ("(A 4) OFFSET (0 0 0 0 0 0)" ": REACH stands in place of OFFSET; give one of them"))
         do (is (equal (loop for report in reports
@@ -39,7 +39,7 @@
                                             (eql #\: (char report 0)) report))
                       (reach-reports :palm (format nil "A2~% REACH ~a" reach)))
                "~a" reach))
-  (is (equal '("grasps.lisp:7: GRASP G, REACH: the reach along A: FROM-FINGERS is that of fingers on two opposite faces beside it; write a length")
+  (is (equal '("grasps.lisp:7: GRASP G, REACH: FROM-FINGERS along A needs fingers on two opposite faces of one other axis; write a length instead")
              (reach-reports :used-surfaces "(N1 O1 A2)" :contacts "((N1 0 0) (O1 0 0))"
                             :palm (format nil "A2~% REACH (A FROM-FINGERS)")))))
 

@@ -76,8 +76,8 @@
 ;;; The paper's own listing
 
 (defun listing (sum offset)
-  "Return the paper's listing of PINCH-2-PARALLEL in its own shape: its parentheses balanced, SUM where
-it has + in WRENCH, and OFFSET for the list that the scan damaged."
+  "Return the paper's listing of PINCH-2-PARALLEL in its own shape: its parentheses balanced, SUM
+where it has + in WRENCH, and OFFSET for the list that the scan damaged."
   (let ((text (part-between (file-text "t/paper-listings.txt") "(SETQ PINCH-2-PARALLEL" "(SETQ BOX")))
     (loop for (from to) in `(("(DIST '(D1 D2))" "(DIST '(O1 O2))")
                              ("(CONSTRAINED D1)" "(CONSTRAINED O1)")

@@ -1,4 +1,5 @@
-;;;; hands.lisp -- the hands of examples/hands/: they load, say where each number is from, and grasp.
+;;;; hands.lisp -- the hands of examples/hands/: they load, say where each number is from, and
+;;;; grasp.
 
 (in-package :supergrip-test)
 (define-suite hands "The hands of examples/hands/: they load, say where each number is from, and grasp.")

@@ -413,7 +413,8 @@ the direction of gravity, a unit vector, and where it acts, from the box centre.
               (mapcar #'double (or (entry 'centre) '(0 0 0))))))
 
 (defun facts-in-order (facts)
-  "Return FACTS, sentences, each list of faces and then the lists themselves in the order of *FACES*."
+  "Return FACTS, sentences, each list of faces and then the lists themselves in the order of
+*FACES*."
   (flet ((place (face) (position face *faces*)))
     (let ((ordered (loop for fact in facts
                          collect (loop for part in fact

@@ -1,4 +1,5 @@
-;;;; preliminary-assertions.lisp -- a preliminary assertion is one row, and everything follows from it.
+;;;; preliminary-assertions.lisp -- a preliminary assertion is one row, and everything follows from
+;;;; it.
 
 (in-package :supergrip-test)
 (define-suite inputs "A preliminary assertion is one row, and everything follows from it.")

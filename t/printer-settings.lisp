@@ -1,4 +1,5 @@
-;;;; printer-settings.lisp -- texts whatever the printer is set to, names in any form, bounded answers.
+;;;; printer-settings.lisp -- texts whatever the printer is set to, names in any form, bounded
+;;;; answers.
 
 (in-package :supergrip-test)
 (define-suite plain "Texts whatever the printer is set to, names in any form, bounded answers.")
@@ -114,7 +115,7 @@
     (signals supergrip:no-box-error (supergrip:try-grasp "PINCH-3-CORNER"))
     (signals supergrip:no-plan-error (supergrip:plan-candidates)))
   (dolist (one (list (paper-box) `(setq box ',(paper-box)) (supergrip:parse-box (paper-box))))
-    (is (equal '("0 of 1 boxes differ: 0 in verdict, 0 in grasp, 0 in quality.")
+    (is (equal '("0 of 1 box differs: 0 in verdict, 0 in grasp, 0 in quality.")
                (printed (supergrip:compare-knowledge supergrip:*knowledge* supergrip:*knowledge*
                                                      one))))))
 

@@ -193,7 +193,8 @@
     (signals supergrip:gamma-error (supergrip:plan (paper-box) :gamma gamma))))
 
 (defun plain-nearest (candidates plan)
-  "Return the nearest miss among CANDIDATES of PLAN, from its definition: each is looked at in full."
+  "Return the nearest miss among CANDIDATES of PLAN, from its definition: each is looked at in
+full."
   (let ((step (find-if (lambda (step) (find step candidates :key #'supergrip:candidate-outcome))
                        (reverse (supergrip::step-outcomes))))
         (best nil) (least nil))

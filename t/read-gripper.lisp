@@ -135,8 +135,8 @@
 ;;; Files and folders
 
 (defmacro with-hand-folder ((name &rest files) &body body)
-  "Run BODY with NAME bound to a new folder, a string with / at its end, that holds FILES, each a list
-of a name and a text."
+  "Run BODY with NAME bound to a new folder, a string with / at its end, that holds FILES, each a
+list of a name and a text."
   `(let* ((directory (uiop:ensure-directory-pathname
                       (format nil "~asupergrip-~36r" (uiop:native-namestring (uiop:temporary-directory))
                               (random (expt 36 8) (make-random-state t)))))
@@ -233,7 +233,7 @@ of a name and a text."
       (is (equal "cant" (getf (first (answers *pencil* "--hand" hand "--gripper" (file "other.lisp")))
                               :status)))
       (loop for (status report . options) in
-            `((0 ,(format nil "1 rules and 1 grasps, the gripper of ~agripper.lisp (Jaw 1), no mistakes~%"
+            `((0 ,(format nil "1 rule and 1 grasp, the gripper of ~agripper.lisp (Jaw 1), no mistakes~%"
                           hand)
                  "--hand" ,hand)
               (65 "FINGER-LENGTH is missing: GRASP PINCH-2-PARALLEL, grasps.lisp:"

@@ -121,7 +121,8 @@ list of strings, there, with a cache of its own."
 " "A session with a debugger and settings of its own, as one under SLIME.")
 
 (defun damage (name directory length)
-  "Cut the compiled file NAME in the cache of DIRECTORY after LENGTH octets; it looks as old as before."
+  "Cut the compiled file NAME in the cache of DIRECTORY after LENGTH octets; it looks as old as
+before."
   (let ((file (find name (directory (merge-pathnames "cache/**/*.fasl" directory))
                     :key #'pathname-name :test #'string=)))
     (uiop:run-program

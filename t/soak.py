@@ -1197,7 +1197,7 @@ def signals(soak, rng):
     compare_prefix(case, stream, records_of(result.out, "json"), soak.answers(case))
     soak.last = sent
     soak.check_end(result, [-number, 128 + number])
-    said = re.search(r"after (\d+) boxes", text)
+    said = re.search(r"after (\d+) box(?:es)?", text)
     if said and int(said[1]) != result.out.count(b"\n"):
         raise Failure(f"it says {text!r}, and wrote {result.out.count(10)} records")
     return len(case.boxes)

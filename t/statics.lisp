@@ -50,7 +50,8 @@ and whether the grasping conditions hold."
     ("PINCH-2-ADJACENT" t t t t t t)
     ("PINCH-3-ADJACENT" t t nil nil nil t)
     ("PINCH-3-CORNER" nil nil nil nil nil nil))
-  "Which entries of WRENCH claim to be exact: along N O A, about N O A.  The docs/physics.md says the same.")
+  "Which entries of WRENCH claim to be exact: along N O A, about N O A.  The docs/physics.md says
+the same.")
 
 (defun read-maxima ()
   "Return the solver's results, a list of plists."

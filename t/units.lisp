@@ -304,7 +304,7 @@
         (is (equal '("grasp" t) (list (getf one :status) (getf one :fits))))
         (is (= 30d0 (abs (second (getf (first (getf one :contacts)) :position)))) "in mm")
         (is (< (* 1.9d0 (getf two :sure)) (getf one :sure)) "a margin of 2")))
-    (is (search "--margin is a number above 0, not -1" (nth-value 2 (answers parcel "--margin" "-1"))))))
+    (is (search "--margin must be a number above 0, not -1" (nth-value 2 (answers parcel "--margin" "-1"))))))
 
 ;;; In words
 
@@ -346,8 +346,8 @@
     (is (equal "#<BOX 12.0 x 2.0 x 2.0 cm>" (princ-to-string (supergrip:parse-box *good-box*))))))
 
 (test a-change-in-units-changes-the-choice
-  "What EXPLAIN-BEST names is in the units of the box: the box with it, described anew, is one for which
-something else is chosen; in finger forces and cm the limit is the same."
+  "What EXPLAIN-BEST names is in the units of the box: the box with it, described anew, is one for
+which something else is chosen; in finger forces and cm the limit is the same."
   (let ((knowledge (force-knowledge)) (checked 0))
     (for-random-boxes (box 30 4103)
       (flet ((changes (description)

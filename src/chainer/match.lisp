@@ -32,8 +32,8 @@
 ;;; From clauses to matchers
 
 (defun compile-antecedent (clauses actions count)
-  "Return the matcher of a rule of CLAUSES and ACTIONS, which has COUNT variables.  It leaves out some of
-the bindings that would do nothing."
+  "Return the matcher of a rule of CLAUSES and ACTIONS, which has COUNT variables.  It leaves out
+some of the bindings that would do nothing."
   (let ((*interchangeable* (interchangeable-pairs clauses actions count))
         (*unseen* (unseen-variables actions count)))
     (compile-clauses clauses '())))
@@ -158,7 +158,8 @@ the bindings that would do nothing."
   (if (clause-variables clause)
       (compile-variable-test clause next)
       (let ((bits (fact-bits (length (clause-terms clause))
-                             (make-face-list (mapcar (lambda (term) (- -1 term)) (clause-terms clause)))))
+                             (make-face-list (mapcar (lambda (term) (- -1 term))
+                                                     (clause-terms clause)))))
             (index (predicate-index (clause-predicate clause)))
             (wanted (not (clause-negated clause))))
         (declare (function next))

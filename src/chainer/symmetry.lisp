@@ -19,8 +19,8 @@
       (member (reverse pair) *interchangeable* :test #'equal)))
 
 (defun interchangeable-pairs (clauses actions count)
-  "Return the pairs of COUNT variables whose exchange leaves a rule as it was: its CLAUSES, and what its
-ACTIONS do.  Lists of surfaces are unordered."
+  "Return the pairs of COUNT variables whose exchange leaves a rule as it was: its CLAUSES, and what
+its ACTIONS do.  Lists of surfaces are unordered."
   (loop for a below count
         append (loop for b from (1+ a) below count
                      when (and (same-clauses-p clauses a b)

@@ -116,8 +116,8 @@ is in none yet."
   (cdr (assoc (cons operator operands) (code-operations code) :test #'equal)))
 
 (defun write-operands (nodes code)
-  "Write NODES, one or two, and return the operand of each: the register that will hold its number, or
-the inner operation that gives it (see CLOSURE-ON)."
+  "Write NODES, one or two, and return the operand of each: the register that will hold its number,
+or the inner operation that gives it (see CLOSURE-ON)."
   (loop for node in nodes
         collect (or (and (eq (node-kind node) :operation)
                          ;; The same number twice, as in a square, is computed once.
@@ -127,8 +127,8 @@ the inner operation that gives it (see CLOSURE-ON)."
                     (write-number node code))))
 
 (defun write-inner-operation (operation code)
-  "Write the arguments of OPERATION, an operator and nodes, and return its operand; NIL if it can't be
-inside another operation."
+  "Write the arguments of OPERATION, an operator and nodes, and return its operand; NIL if it can't
+be inside another operation."
   (destructuring-bind (operator . nodes) operation
     (when (arithmetic-inner operator)
       (let ((from (loop for node in nodes collect (write-number node code))))

@@ -24,7 +24,8 @@
              (with-slots (given) condition
                (if given
                    (format stream "~a is not a plan: FORWARD-CHAIN, PLAN and TRY-GRASP return ~
-                                   plans~:[~;; HOW, WHY-NOT and REQUIRES answer about a name or a fact~]"
+                                   plans~:[~;; HOW, WHY-NOT and REQUIRES answer about a name or a ~
+                                   fact~]"
                            (form-text given) (or (namep given) (consp given) (stringp given)))
                    (write-string "there is no plan yet: call (forward-chain) first" stream)))))
   (:documentation "A question about a plan was asked before there was one, or of something else."))

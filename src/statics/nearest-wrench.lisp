@@ -242,8 +242,8 @@ them all."
                   (reached-p))))))
 
 (defun grip-closed-p (grip)
-  "True if GRIP is closed: it can exert a wrench in every direction.  One that reaches less than 1e-5
-as far in one direction as in the mean is not, nor one that can't be computed."
+  "True if GRIP is closed: it can exert a wrench in every direction.  One that reaches less than
+1e-5 as far in one direction as in the mean is not, nor one that can't be computed."
   (without-float-traps
     (and (computable-p grip (make-six))
          (spans-all-p grip))))
