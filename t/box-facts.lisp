@@ -75,8 +75,10 @@
           `((wet ,takes) ((wet ()) ,takes) (((z1)) ,takes) ((wet (z1) (z2)) ,takes) ((wet 3) ,takes)
             (() ,takes) (("") ,takes) (("(") ,takes)
             ((wet z1) "its faces belong in a list of their own, at the end: (WET (Z1))")
-            ((not wet) "a fact can't be negated; leave it out, since what a box does not say is false"))
-          do (is (equal (list (format nil "BOX: ~a is not a fact: ~a" (supergrip-data:form-text fact)
+            ((not wet)
+             "a fact can't be negated; leave it out, since what a box does not say is false"))
+          do (is (equal (list (format nil "BOX: ~a is not a fact: ~a"
+                                      (supergrip-data:form-text fact)
                                       text))
                         (said-of fact))
                  "~s" fact)))
@@ -152,10 +154,12 @@
       (dolist (grasp '("PINCH-2-PARALLEL" "PINCH-3-PARALLEL"))
         (let ((without (tried grasp (list all))))
           (is (plusp (count "Y2" without :test #'string=)))
-          (is (equal without (tried grasp (list all gentle) '(fragile (y1)))) "the twins were tried")
+          (is (equal without (tried grasp (list all gentle) '(fragile (y1))))
+              "the twins were tried")
           (dolist (face '("Y1" "Y2"))
             (is (equal (sort (substitute face "Y2" without :test #'string=) #'string<)
-                       (sort (tried grasp (list (changed gentle "~:*" "") (changed all "~a" "~:*~a"))
+                       (sort (tried grasp
+                                    (list (changed gentle "~:*" "") (changed all "~a" "~:*~a"))
                                     `(fragile (,face)))
                              #'string<))
                 "~a first: ~a" grasp face)))))))
@@ -225,7 +229,8 @@
       (is (equal '("SLIPPERY is a preliminary assertion; its threshold is SLIPPERY-U, 0.1."
                    "It is tested by no rule.")
                  (described "slippery")))
-      (is (equal '("OPPOSED (S1 S2) is a preliminary assertion." "It is tested by GENTLE1, GENTLE2.")
+      (is (equal '("OPPOSED (S1 S2) is a preliminary assertion."
+                   "It is tested by GENTLE1, GENTLE2.")
                  (described 'opposed)))
       (is (equal "there is no input FRAGLE (did you mean FRAGILE?); there are OPPOSED, SMALL, NARROW, LARGE, CONSTRAINED, SLIPPERY, FRAGILE, WET, LIKE"
                  (error-text (described 'fragle))))
@@ -238,7 +243,8 @@
 (test declarations-are-typed-replaced-and-forgotten
   (with-knowledge-restored
     (handler-bind ((warning #'muffle-warning))
-      (flet ((declared () (loop for (words count) in (supergrip:declared-inputs supergrip:*knowledge*)
+      (flet ((declared () (loop for (words count)
+                                in (supergrip:declared-inputs supergrip:*knowledge*)
                                 collect (format nil "~{~a~^ ~} ~d" words count))))
         (eval-in-user "(input fragile (s1))")
         (supergrip:edit '(input object has lid))

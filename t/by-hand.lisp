@@ -176,7 +176,8 @@
       (let* ((grasp (random-element *shipped-grasps* state))
              (suggestion (some-faces-of-a-matching state))
              (knowledge (text-knowledge
-                         (format nil "(RULE R (IF (OPPOSED (X1 X2))) (THEN (TRY ~a ~a)))" grasp suggestion)
+                         (format nil "(RULE R (IF (OPPOSED (X1 X2))) (THEN (TRY ~a ~a)))" grasp
+                                 suggestion)
                          (file-text "grasps.lisp"))))
         (dotimes (j 10)
           (let* ((box (random-box state))

@@ -243,7 +243,8 @@ relative to the project, if they are in one of *DIRECTORIES*."
 
 (defun rooms ()
   "Return a list of (ROOM . FILES), strings, as the systems have them."
-  (append (loop for system in '("supergrip/chainer" "supergrip/statics" "supergrip" "supergrip/batch")
+  (append (loop for system
+                in '("supergrip/chainer" "supergrip/statics" "supergrip" "supergrip/batch")
                 append (loop for room in (asdf:component-children (asdf:find-system system))
                              when (typep room 'asdf:module)
                                collect (cons (asdf:component-name room) (component-files room))))

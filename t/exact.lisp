@@ -289,16 +289,17 @@ numbers."
          (lines (printed (supergrip:explain-best plan))))
     (multiple-value-bind (upper lower worst) (exact-radius-of case)
       (is (<= lower 0.880d0 upper 0.8885d0)) ; by cone programming, and the gap
-      (is (equal (list (format nil "Force is limited where the box is pushed along -Y and turned about ~
-                                    +Y: radius ~,3f, proved, and at most ~,3f." lower upper)
-                       (format nil "  There pressing gives ~,3f, friction ~,3f, the fingertips' torque ~
-                                    ~,3f, the weight ~,3f; the task needs 1."
+      (is (equal (list (format nil "Force is limited where the box is pushed along -Y and turned ~
+                                    about +Y: radius ~,3f, proved, and at most ~,3f." lower upper)
+                       (format nil "  There pressing gives ~,3f, friction ~,3f, the fingertips' ~
+                                    torque ~,3f, the weight ~,3f; the task needs 1."
                                . #1=((first (powers-at case worst)) (second (powers-at case worst))
-                                     (third (powers-at case worst)) (fourth (powers-at case worst)))))
+                                     (third (powers-at case worst))
+                                     (fourth (powers-at case worst)))))
                  (subseq lines 1 3)))
       (is (close-to upper (+ . #1#)))
-      (is (find (format nil "The contacts bear at most ~,4f of the force asked for, which is enough if ~
-                             the needs only say what matters more." upper)
+      (is (find (format nil "The contacts bear at most ~,4f of the force asked for, which is ~
+                             enough if the needs only say what matters more." upper)
                 lines :test #'string=))
       (is (notany (lambda (line) (search "Exactly, " line)) lines)))))
 
@@ -334,7 +335,8 @@ numbers."
   (let* ((plan (exact-plan (paper-box)))
          (other (find-if #'supergrip:candidate-bound-p (supergrip:plan-possible plan)))
          (bound (supergrip:candidate-quality other)))
-    (is (equal (format nil "~a (~{~a~^ ~}): its Q is at most ~,3f, at least ~a below ~a (~{~a~^ ~})."
+    (is (equal (format nil "~a (~{~a~^ ~}): its Q is at most ~,3f, at least ~a below ~a (~{~a~^ ~
+                            ~})."
                        (supergrip:candidate-grasp other) (supergrip:candidate-matching other) bound
                        (supergrip::number-text (- (supergrip:plan-quality plan) bound))
                        (supergrip:plan-grasp plan) (supergrip:plan-matching plan))

@@ -48,7 +48,8 @@
   (signals error (macroexpand-1 '(supergrip::node-case (:six node) (:list () 1) (:let () 2))))
   (signals error (macroexpand-1 '(supergrip::node-case (:six node)
                                   (:list () 1) (:let () 2) (:cond () 3) (:not () 4))))
-  (finishes (macroexpand-1 '(supergrip::node-case (:six node) ((:list :let :cond :computed) () 1)))))
+  (finishes (macroexpand-1
+             '(supergrip::node-case (:six node) ((:list :let :cond :computed) () 1)))))
 
 (test a-negative-twist-is-found-in-every-clause
   (loop for twist in '("(COND ((u > 1) (LIST 1 1 1 1 1 -1)) (T (LIST 1 1 1 1 1 1)))"

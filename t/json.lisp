@@ -30,7 +30,8 @@
           ("\"\"" "") ("\"a\\\"b\\\\c\\/\"" "a\"b\\c/")
           ("\"\\u0041\\n\\t\"" ,(format nil "A~c~c" #\Newline #\Tab))
           ("\"\\ud83d\\ude00\"" ,(string (code-char #x1f600)))
-          ("\"\\ud83dx\\ude00\"" ,(coerce (list (code-char #xfffd) #\x (code-char #xfffd)) 'string)))
+          ("\"\\ud83dx\\ude00\""
+           ,(coerce (list (code-char #xfffd) #\x (code-char #xfffd)) 'string)))
         do (is (equalp value (read-json-text text)) "~a gave ~s" text (read-json-text text))))
 
 (test json-refuses-everything-else
@@ -64,7 +65,8 @@
     (is (equal "1:2: a name of 65 characters; at most 64 are read"
                (json-failure (format nil "{\"~a\": 1}" (repeat 65 "a")))))
     (dolist (text '("[]," "{}," "\"\"," "1,"))
-      (is (search "longer than 65536 characters" (json-failure (format nil "[~a1]" (repeat 40000 text))))
+      (is (search "longer than 65536 characters"
+                  (json-failure (format nil "[~a1]" (repeat 40000 text))))
           text))
     (is (search "longer than 65536 characters"
                 (json-failure (format nil "\"~a\"" (repeat 70000 "a")))))))

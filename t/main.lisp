@@ -46,19 +46,22 @@
 (test wrong-command-lines-give-64
   (loop for (report . options) in
         '(("there is no option --fromat (did you mean --format?)" "--fromat" "json")
-          ("--format must be trace, sexp, json, isaac, moveit or graspgen, not xml" "--format" "xml")
+          ("--format must be trace, sexp, json, isaac, moveit or graspgen, not xml" "--format"
+           "xml")
           ("--input must be sexp or json, not trace" "--input=trace")
           ("--format needs a value" "--format")
           ("--rules needs the name of a file" "--rules" "")
           ("--check takes no value" "--check=yes")
-          ("--gamma must be a number from 0 (forces alone) to 1 (velocities alone), not 1.5" "--gamma" "1.5")
+          ("--gamma must be a number from 0 (forces alone) to 1 (velocities alone), not 1.5"
+           "--gamma" "1.5")
           ("not 0.5 foo" "--gamma" "0.5 foo") ("not 40 41" "--number-limit" "40 41")
           ("not NaN" "--gamma" "NaN") ("not #.(quit)" "--gamma" "#.(quit)")
           ("--depth-limit must be a whole number from 1 to 1000, not 1001" "--depth-limit" "1001")
           ("--record-limit must be a whole number" "--record-limit" "0.5")
           ("--number-limit must be a whole number" "--number-limit" "0")
           ("--name-limit must be a whole number" "--name-limit" "x")
-          ("--all must be a whole number from 1 to 1000, not 0" "--all" "0") ("not 1001" "--all" "1001")
+          ("--all must be a whole number from 1 to 1000, not 0" "--all" "0")
+          ("not 1001" "--all" "1001")
           ("not 1.5" "--all" "1.5") ("not many" "--all" "many") ("--all needs a value" "--all")
           ("--all does not go with --format trace" "--all" "2" "--format" "trace")
           ("--refine goes with --format sexp or json" "--refine" "--format" "trace")
@@ -77,7 +80,8 @@
           (("--record-limit" "1") "((SIZE 1))" "longer than 1 character")
           (("--number-limit" "3") "((SIZE 1.000))" "a number of 5 characters; at most 3 are read")
           (("--name-limit" "1") "((SIZE 1))" "a name of 4 characters; at most 1 is read")
-          (("--depth-limit" "40") "((((((((((((((((((((((((((((((((((((()))))))))))))))))))))))))))))))))))))"
+          (("--depth-limit" "40")
+           "((((((((((((((((((((((((((((((((((((()))))))))))))))))))))))))))))))))))))"
            "is not a part of a box")
           (("--number-limit" "60") "((SIZE 1 1 1.00000000000000000000000000000000000000000000))"
            "WEIGHT is missing"))
@@ -164,7 +168,8 @@ line" "dots.." "..." "~" "café" "~a" "[" "*.*"))
           (shell "\"$0\" --format json \"$1\" /no/such/file - -- \"$2\" < \"$1\"" a b)
         (is (eql 66 status))
         (is (= 3 (length (lines-of output))))
-        (is (equal (format nil "supergrip: /no/such/file: can't be opened: No such file or directory~%")
+        (is (equal (format nil "supergrip: /no/such/file: can't be opened: No such file or ~
+                                directory~%")
                    errors)))
       (is (eql 66 (first (shell "\"$0\" /no/such/file \"$1\"" (format nil "~a" a)))))
       (is (eql 66 (first (shell "echo '((' | \"$0\" / -"))) "66 before 65"))))
@@ -230,7 +235,8 @@ records and what it said."
                       (is (equal "grasp" (getf (ignore-errors (read-from-string (first (last lines))))
                                                :status))
                           "the last record is whole")
-                      (is (search (format nil "ended by SIG~a after ~d box~:*~[es~;~:;es~]" name (length lines))
+                      (is (search (format nil "ended by SIG~a after ~d box~:*~[es~;~:;es~]" name
+                                          (length lines))
                                   errors)
                           "~a ~a" (length lines) errors)))))
 
@@ -371,11 +377,13 @@ cat \"$1\" | \"$0\" --input json --format sexp" (spoiled-json))
                                form)
                        "--report" folder)))
       (is (equal '(0 "") (reports "plans (assert (probe-file folder)) (values folder 0)")))
-      (is (equal (list 74 (format nil "supergrip: ~a: 2 pages can't be drawn; index.html says which, and why~%"
+      (is (equal (list 74 (format nil "supergrip: ~a: 2 pages can't be drawn; index.html says ~
+                                       which, and why~%"
                                   folder))
                  (reports "plans (values folder 2)")))
       (is (eql 70 (first (reports "(car folder)"))))
-      (is (eql 74 (first (reports "(open (merge-pathnames \"none/x\" folder) :direction :output)"))))
+      (is (eql 74
+               (first (reports "(open (merge-pathnames \"none/x\" folder) :direction :output)"))))
       (is (equal (list 74 (format nil "supergrip: /dev/null/x: can't be made: Not a directory~%"))
                  (reports "plans (error \"called\")" "/dev/null/x")))
       (is (equal (list 74 (format nil "supergrip: /dev/null: can't be written: Not a directory~%"))

@@ -204,7 +204,8 @@ of (rule . fact), as strings, in the order in which the facts were remembered."
                         (funcall try grasp (instance suggestion bindings))))
                  (keep (finish :keep))
                  (cant (finish :cant (remove-if #'listp arguments))))))
-      (loop for (nil name (nil . clauses) (nil . actions)) in (remove 'input (own rules) :key #'first)
+      (loop for (nil name (nil . clauses) (nil . actions))
+            in (remove 'input (own rules) :key #'first)
             for all = (rule-bindings clauses facts)
             do (loop for (operator . arguments) in actions
                      do (dolist (bindings all)

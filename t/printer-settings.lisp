@@ -71,7 +71,8 @@
                (rest (printed (supergrip:why-not '("PARALLEL" ("Y2" "y1")) plan)))))
     (is (equal (printed (supergrip:how '(object has free corners) plan))
                (printed (supergrip:how "object has free corners" plan))))
-    (is (equal (printed (supergrip:describe-rule 'grip9)) (printed (supergrip:describe-rule "grip9"))))
+    (is (equal (printed (supergrip:describe-rule 'grip9))
+               (printed (supergrip:describe-rule "grip9"))))
     (unwind-protect (is (equal '("GRIP9" "PINCH-3-CORNER")
                                (sort (progn (supergrip:trace-rule "grip9")
                                             (supergrip:trace-grasp :pinch-3-corner))
@@ -106,7 +107,8 @@
 
 (test the-current-box-and-plan-are-what-is-meant
   (let ((supergrip::*box* (supergrip:parse-box (paper-box))) (supergrip:*plan* (pencil-plan)))
-    (is (equal "PINCH-3-CORNER" (caar (supergrip::plan-tries (supergrip:try-grasp "PINCH-3-CORNER")))))
+    (is (equal "PINCH-3-CORNER"
+               (caar (supergrip::plan-tries (supergrip:try-grasp "PINCH-3-CORNER")))))
     (is (= 0.25d0 (supergrip:plan-gamma (supergrip:try-grasp 'pinch-3-corner :gamma 1/4))))
     (is (= 6 (length (supergrip:plan-candidates)) (length (supergrip:plan-possible))))
     (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp)))
@@ -138,8 +140,9 @@
 
 (defun chain-plan (count)
   "Return a plan by a chain of COUNT rules, each of which needs what the last one said."
-  (let ((rules (format nil "(RULE A0 (IF (OPPOSED (S1 S2))) (THEN (REMEMBER P0 (S1 S2))))~%~:{(RULE ~
-                            A~d (IF (P~d (S1 S2))) (THEN (REMEMBER P~d (S1 S2))))~%~}"
+  (let ((rules (format nil "(RULE A0 (IF (OPPOSED (S1 S2))) (THEN (REMEMBER P0 (S1 ~
+                            S2))))~%~:{(RULE A~d (IF (P~d (S1 S2))) (THEN (REMEMBER P~d (S1 ~
+                            S2))))~%~}"
                        (loop for i from 1 to count collect (list i (1- i) i)))))
     (supergrip:plan (paper-box) :knowledge (text-knowledge rules (file-text "grasps.lisp")))))
 

@@ -64,7 +64,8 @@
      "rules.lisp:3: warning: RULE OBVIOUS, clause 2: the absence of PARALLEL is tested here, but RULE FIND, which derives it, comes later; rules run in order, each once")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1 s2)) (NOT PARALLEL (s2 s1)))"
      "rules.lisp:12: warning: RULE ACROSS, clause 2: this contradicts clause 1, so the rule can never fire")
-    (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER PARALLEL (s1 s2)) (REMEMBER OBJECT HAS PARALLEL SURFACE)"
+    (:RULES "(REMEMBER PARALLEL (s1 s2))"
+            "(REMEMBER PARALLEL (s1 s2)) (REMEMBER OBJECT HAS PARALLEL SURFACE)"
      "rules.lisp:9: warning: RULE FIND, action 2: no rule tests OBJECT HAS PARALLEL SURFACE (did you mean OBJECT HAS PARALLEL SURFACES?)")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(REMEMBER DONE)"
      "grasps.lisp:6: warning: GRASP G: no rule tries it")
@@ -219,8 +220,10 @@
                         *good-grasps*)))
     (is (equal '("grasps.lisp:15: GRASP G, CONTACTS: CONTACTS lists more than 50 contacts")
                (reports *good-rules*
-                        (replace-once *good-grasps* "((N1 0 0)" (format nil "(~a" (repeat 51 "(N1 0 0)"))))))
-    (let ((reports (reports (format nil "(RULE R (IF ~a) (THEN (KEEP BEST)))" (repeat 400 "(SMALL)"))
+                        (replace-once *good-grasps* "((N1 0 0)"
+                                      (format nil "(~a" (repeat 51 "(N1 0 0)"))))))
+    (let ((reports (reports (format nil "(RULE R (IF ~a) (THEN (KEEP BEST)))"
+                                    (repeat 400 "(SMALL)"))
                             *good-grasps*)))
       (is (= 21 (length reports)))
       (is (equal "rules.lisp:1: RULE R: and 380 more problems" (first (last reports)))))))
@@ -228,7 +231,8 @@
 (test several-mistakes-are-all-reported
   (let ((reports (mapcar #'princ-to-string
                          (nth-value 1 (text-knowledge
-                                       (replace-once (replace-once *good-rules* "(KEEP BEST)" "(KEEP IT)")
+                                       (replace-once (replace-once *good-rules* "(KEEP BEST)"
+                                                                   "(KEEP IT)")
                                                      "(SMALL (s1 s2))" "(SMALL (s1))")
                                        (replace-once *good-grasps* "PALM A2" "PALM A1"))))))
     (is (equal '("grasps.lisp:6: GRASP G, PALM: the palm faces A1, which is not one of USED-SURFACES"

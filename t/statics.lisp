@@ -17,7 +17,8 @@
                  (supergrip-data:string-source (file-text "grasps.lisp"))))
          (gripper (copy-list (second (third (first forms))))))
     (loop for (name number) on dimensions by #'cddr
-          do (setf (second (member-if (lambda (key) (supergrip-data:name= key name)) gripper)) number))
+          do (setf (second (member-if (lambda (key) (supergrip-data:name= key name)) gripper))
+                   number))
     (multiple-value-bind (graspbase problems)
         (supergrip-data:with-problems
           (supergrip::build-graspbase

@@ -119,7 +119,8 @@
     (for-random-boxes (box 10 4102)
       (let* ((box (in-short box)) (record (record-of box knowledge :index :exact)))
         (loop for (length force cm fingers) in (subseq *unit-sizes* 1 3)
-              do (is (same-records-p record (record-of (box-in box length force cm fingers) knowledge
+              do (is (same-records-p record (record-of (box-in box length force cm fingers)
+                                                       knowledge
                                                        :index :exact)
                                      cm fingers)))))))
 
@@ -136,7 +137,8 @@
 (test a-mass-stands-in-the-place-of-the-weight
   (flet ((weight (description &optional (newtons 20))
            (supergrip:box-weight (supergrip:plan-box
-                                  (supergrip:plan description :knowledge (force-knowledge newtons))))))
+                                  (supergrip:plan description
+                                                  :knowledge (force-knowledge newtons))))))
     (is (close-to (/ (* 1.2d0 9.80665d0) 20) (weight *parcel*)))
     (is (close-to (/ (* 1.2d0 9.80665d0) 50) (weight *parcel* 50)))
     (is (close-to (/ (* 1.2d0 9.80665d0) 20) (weight (cons '(units cm lbf) (rest *parcel*)))))
@@ -154,8 +156,8 @@
 
 (test json-has-units-and-mass
   (flet ((json (units)
-           (json-box (format nil "{\"units\": ~a, \"size\": [300, 60, 50], \"mass\": 1.2, \"u\": 0.8, ~
-                                  \"v\": 2, \"constrained\": [\"Z2\"], \"name\": \"parcel\",
+           (json-box (format nil "{\"units\": ~a, \"size\": [300, 60, 50], \"mass\": 1.2, \"u\": ~
+                                  0.8, \"v\": 2, \"constrained\": [\"Z2\"], \"name\": \"parcel\",
                                   \"force_needed\": [5, 5, 10, 100, 100, 100],
                                   \"velocity_needed\": [1, 0, 0, 0, 0, 0]}" units))))
     (dolist (units '("[\"mm\", \"N\"]" "[\"MM\", \"n\"]"))
@@ -194,7 +196,8 @@
           "so does the confidence of a writer")
       ;; Near 1 the proof goes closer.
       (loop for factor from 1/4 to 8 by 1/4
-            do (pushnew (fits (loop for need in '(5 5 10 100 100 100) collect (* factor need))) seen)))
+            do (pushnew (fits (loop for need in '(5 5 10 100 100 100) collect (* factor need)))
+                        seen)))
     (is (null (set-exclusive-or seen '(t :false))))))
 
 (test extreme-boxes-in-units-have-records
@@ -304,7 +307,8 @@
         (is (equal '("grasp" t) (list (getf one :status) (getf one :fits))))
         (is (= 30d0 (abs (second (getf (first (getf one :contacts)) :position)))) "in mm")
         (is (< (* 1.9d0 (getf two :sure)) (getf one :sure)) "a margin of 2")))
-    (is (search "--margin must be a number above 0, not -1" (nth-value 2 (answers parcel "--margin" "-1"))))))
+    (is (search "--margin must be a number above 0, not -1"
+                (nth-value 2 (answers parcel "--margin" "-1"))))))
 
 ;;; In words
 
@@ -324,21 +328,26 @@
                     "the friction u: 0.1, not 0.8; then"
                     "the weight: 32.1 N, not 4 N; then"))
       (is (search part best) "~a~%~a" part best))
-    (is (not (search "which is enough if the needs only say" (subseq best 0 (search "Velocity" best)))))
+    (is (not (search "which is enough if the needs only say"
+                     (subseq best 0 (search "Velocity" best)))))
     (is (search "the size along Y: 2.99 mm, not 20 mm (less than FINGER-WIDTH, 3 mm)"
                 (words (lambda () (supergrip:requires '(small (y2 y1)) plan)))))
     (flet ((plan-with (&rest clauses)
              (supergrip:plan (append clauses
-                                     (remove-if (lambda (clause) (find (first clause) clauses :key #'first))
+                                     (remove-if (lambda (clause)
+                                                  (find (first clause) clauses :key #'first))
                                                 *parcel*))
                              :knowledge knowledge)))
       (loop for (plan text) in
             (list (list (plan-with '(mass 30) '(size 200 50 60))
                         "the load along Z is 294.2 N, the grasp bears 32")
-                  (list (plan-with '(size 200 250 260)) "the narrowest free pair, X, is 200 mm; the hand opens to 120"))
-            do (is (search text (supergrip:plan-reason plan)) "~a: ~a" text (supergrip:plan-reason plan)))
+                  (list (plan-with '(size 200 250 260))
+                        "the narrowest free pair, X, is 200 mm; the hand opens to 120"))
+            do (is (search text (supergrip:plan-reason plan)) "~a: ~a" text
+                   (supergrip:plan-reason plan)))
       (is (search "they are 250 mm apart, no less than DIST-PINCH, 120"
-                  (words (lambda () (supergrip:how '(large (y2 y1)) (plan-with '(size 200 250 260))))))))
+                  (words (lambda ()
+                           (supergrip:how '(large (y2 y1)) (plan-with '(size 200 250 260))))))))
     (is (search "F3 on Y1: from (0 10 0) mm to ("
                 (words (lambda () (supergrip:explain-refinement
                                    (supergrip:plan (box-in *plain-pencil* :mm :n 1/10 1/20)
