@@ -137,7 +137,7 @@ if that can be done."
     (or (load-compiled system)
         (progn
           (when (interactive-stream-p *messages*)
-            (tell "What is compiled can't be kept, so the sources are loaded: it takes some ~
+            (tell "Compiled files can't be kept, so the sources are loaded; this takes some ~
                    seconds."))
           (call-quietly #'asdf:operate 'asdf:load-source-op system))))
 

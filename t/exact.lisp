@@ -407,7 +407,9 @@ numbers."
             (is (<= (* 0.99d0 (radius (* 0.985d0 squeeze))) 1d0) "~a" box)))))))
 
 (test an-unknown-index-is-told-of
-  (is (equal "index is EXAKT; it is :PAPER or :EXACT"
+  (is (equal "gamma is 2, but must be a number from 0 (forces alone) to 1 (velocities alone)"
+             (error-text (supergrip:plan (paper-box) :gamma 2))))
+  (is (equal "index is EXAKT, but must be :PAPER or :EXACT"
              (error-text (supergrip:plan (paper-box) :index :exakt)))))
 
 (test exact-plans-do-not-depend-on-float-traps

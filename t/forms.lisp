@@ -54,7 +54,7 @@
 (test a-negative-twist-is-found-in-every-clause
   (loop for twist in '("(COND ((u > 1) (LIST 1 1 1 1 1 -1)) (T (LIST 1 1 1 1 1 1)))"
                        "(LET ((x 1)) (IF (u > 1) (1 1 1 1 1 x) (1 1 1 1 1 (- x 2))))")
-        do (is (equal '("grasps.lisp:7: GRASP G, TWIST: an entry below 0: mobility is 0 or more")
+        do (is (equal '("grasps.lisp:7: GRASP G, TWIST: an entry is below 0, but a mobility must be 0 or more")
                       (grasp-reports :twist twist)))))
 
 ;;; Float traps

@@ -166,7 +166,7 @@ where it has + in WRENCH, and OFFSET for the list that the scan damaged."
           ("(N1 N2 A2)" "X1"
            "grasps.lisp:3: GRASP G, USED-SURFACES: (X1): USED-SURFACES are some of N1 N2 O1 O2 A1 A2")
           ("(TWIST (1 1 1 1 1 1))" "(TWIST 1 1 1 1 1 -1)"
-           "grasps.lisp:5: GRASP G, TWIST: an entry below 0: mobility is 0 or more")
+           "grasps.lisp:5: GRASP G, TWIST: an entry is below 0, but a mobility must be 0 or more")
           ("AND (v > 0) OR (NOT (CONSTRAINED O1))" "AND"
            "grasps.lisp:3: GRASP G, CONDITIONS: ((U > 1) AND): AND stands between two tests")
           ;; The scan's parentheses: the grasp ends too early.

@@ -36,7 +36,7 @@
   (let ((command (format nil "sbcl --noinform --no-userinit --non-interactive --load '~a' --eval ~
                               '~a'"
                          (uiop:native-namestring (project-file "src/boot.lisp"))
-                         "(funcall (supergrip-boot::progress nil (- (get-internal-real-time) (* 3 ~
+                         "(funcall (supergrip-boot::progress nil (- (get-internal-real-time) (* 3
                           internal-time-units-per-second))))"))
         (shown "SUPER-GRIP is compiled, which is done once: 1 file"))
     (multiple-value-bind (status output errors) (run-process (list "sh" "-c" command))

@@ -164,7 +164,7 @@
     (:GRASPS "(* 2 v)" "1e999"
      "grasps.lisp:11:13: 1e999 is out of range: numbers lie between 1e-300 and 1e300, or are 0")
     (:GRASPS "(1 1 1 1 1 1)" "(1 1 1 1 1 -1)"
-     "grasps.lisp:14: GRASP G, TWIST: an entry below 0: mobility is 0 or more")
+     "grasps.lisp:14: GRASP G, TWIST: an entry is below 0, but a mobility must be 0 or more")
     (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "((DIST '(N1 N2)) < DIST-PINCH AND)"
      "grasps.lisp:8: GRASP G, CONDITIONS: ((DIST '(N1 N2)) < DIST-PINCH AND): AND stands between two tests")
     (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "((DIST '(N1 N2)) LESS DIST-PINCH)"
@@ -176,7 +176,7 @@
     (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "(FINGER-LENGTH > DIST-PINCH)"
      "grasps.lisp:8: warning: GRASP G, CONDITIONS: these conditions are false for every box")
     (:GRASPS "(* 2 v)" "(LET* 1 2 3)"
-     "grasps.lisp:11: GRASP G, WRENCH: LET* is (LET* ((name form)...) form)")
+     "grasps.lisp:11: GRASP G, WRENCH: LET* is written (LET* ((name form)...) form)")
     (:GRASPS "(* 2 v)" "(COND (T 0 1))"
      "grasps.lisp:11: GRASP G, WRENCH: (T 0 1) is not a clause of COND, such as (T 0)")
     (:GRASPS "(* 2 v)" "(COND)"

@@ -231,9 +231,9 @@
                   (supergrip:plan-box (supergrip:forward-chain :box *good-box* :margin 1.5
                                                                :knowledge knowledge :stream nil)))))
     (loop for (margin text) in
-          '((0 "margin is 0; it is a number above 0, by which the weight and absolute needs are multiplied")
-            (:x "margin is X; it is a number above 0, by which the weight and absolute needs are multiplied")
-            (1d300 "BOX \"parcel\": its forces are out of range, from 1e-300 to 1e300, with a margin of 1e+300"))
+          '((0 "margin is 0, but must be a number above 0; the weight and absolute needs are multiplied by it")
+            (:x "margin is X, but must be a number above 0; the weight and absolute needs are multiplied by it")
+            (1d300 "BOX \"parcel\": with a margin of 1e+300 its forces are out of range: they must lie between 1e-300 and 1e300"))
           do (is (equal text (error-text (supergrip:plan *parcel* :knowledge knowledge
                                                                   :margin margin)))))))
 
@@ -289,7 +289,7 @@
                (text *parcel*)))
     (is (equal "BOX: MASS needs FINGER-FORCE, one finger's greatest normal force in N, which the gripper does not name: add FINGER-FORCE and a number to (SETQ GRIPPER ...) in grasps.lisp"
                (text (cons '(mass 1) (remove :weight *good-box* :key #'first)))))
-    (is (search "its forces are out of range, from 1e-300 to 1e300, in finger forces of 1e-300 N"
+    (is (search "in finger forces of 1e-300 N its forces are out of range: they must lie between 1e-300 and 1e300"
                 (text (list* '(mass 100) (remove 'mass *parcel* :key #'first))
                       :knowledge (force-knowledge "1e-300"))))
     (signals supergrip:box-error (supergrip:forward-chain :box *parcel* :stream nil))

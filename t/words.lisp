@@ -129,7 +129,7 @@
   (with-session ()
     (let ((quoted (printed (eval-in-user "(progn (try 'pinch-3-parallel) (keep 'best))"))))
       (is (equal quoted (printed (eval-in-user "(progn (try pinch-3-parallel) (keep best))"))))
-      (is (equal "WORST can't be kept: what can be is the best, (keep 'best)"
+      (is (equal "WORST can't be kept: only the best can, by (keep 'best)"
                  (error-text (eval-in-user "(let ((best 'worst)) (keep best))")))))
     (loop for (text . typed)
             in '(("the quote is missing: write '(Y2 Y1 X2 X1 Z2 Z1)"

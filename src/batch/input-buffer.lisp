@@ -1,10 +1,10 @@
 ;;;; input-buffer.lisp -- the characters of a descriptor, as soon as they are there, for the data
 ;;;; reader.
 ;;;;
-;;;; Octets are decoded as UTF-8; what is not UTF-8 becomes U+FFFD.  The reader gets them in
-;;;; pieces that end where a line that starts a record begins: a record that is still open there
-;;;; has lost a parenthesis or a quote.  The reader is then told that the input ends, so that the
-;;;; mistake affects no other record.
+;;;; Octets are decoded as UTF-8; what is not UTF-8 becomes U+FFFD.  The reader gets them in pieces.
+;;;; A piece ends before each line that starts a record.  A record that is still open there has lost
+;;;; a parenthesis or a quote; the reader is then told that the input ends, so that the mistake
+;;;; affects no other record.
 
 (in-package :supergrip)
 

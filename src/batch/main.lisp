@@ -317,7 +317,7 @@ directory of SUPER-GRIP, and end."
         (tell "supergrip: ~a: ~a" file condition)
         (end-process 66)))
     (unless (report-index)
-      (tell "supergrip: without --report, since cl-who is not there"))
+      (tell "supergrip: the executable has no --report, since cl-who is missing"))
     (keep-shipped-files)
     (warm-up)
     (never-debug #'report-internal-error)

@@ -13,9 +13,8 @@
 
 ;;; Signals
 ;;;
-;;; SIGINT and SIGTERM end the program, with 130 and 143.  When, *WHEN-ASKED* says: it ends at once,
-;;; by a throw where there is something to put in order, and after the record in hand while there is
-;;; one.
+;;; SIGINT and SIGTERM end the program, with 130 and 143.  *WHEN-ASKED* says when: at once, by a
+;;; throw where there is something to put in order; or after the record in hand, while there is one.
 
 (defconstant +patience+ 3 "How many seconds the record in hand may take after a signal.")
 

@@ -14,8 +14,8 @@
 ;;;; Most clauses become none of them.  A clause of one or two surfaces, negated or not, leaves its
 ;;;; last variable to be bound a set of faces, six bits that the memory holds ready (see FACT-BITS).
 ;;;; So where a variable is bound, the sets of all such clauses are intersected first: they are its
-;;;; filters, one integer each.  Only faces in all sets are tried, and where one is left in a walk
-;;;; over pairs, there is nothing to walk.
+;;;; filters, one integer each.  Only faces in all sets are tried.  A walk over pairs for which only
+;;;; one face is left needs no walk.
 ;;;;
 ;;;; Tests and filters bind nothing.  So running them early changes neither which bindings are found
 ;;;; nor their order.

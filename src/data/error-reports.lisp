@@ -1,7 +1,7 @@
 ;;;; error-reports.lisp -- what is wrong with a file is collected, and told all at once.
 ;;;;
-;;;; The words stand where a mistake is found: of characters and parentheses in reader.lisp, of
-;;;; files that can't be opened in files.lisp.
+;;;; The texts of messages stand in the file that finds the mistake: those about characters and
+;;;; parentheses in reader.lisp, those about files that can't be opened in files.lisp.
 
 (in-package :supergrip-data)
 

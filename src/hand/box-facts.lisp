@@ -1,7 +1,7 @@
 ;;;; box-facts.lisp -- facts of one's own: what a box says beyond its other keys.
 ;;;;
-;;;; The rules declare them by (INPUT ...).  A box is read without rules; so whether a fact is
-;;;; declared is asked when a plan is made.
+;;;; The rules declare them by (INPUT ...).  A box is read without rules, so it is a plan that
+;;;; checks whether the facts of its box are declared.
 
 (in-package :supergrip)
 

@@ -8,9 +8,10 @@
 ;;;; results, until another program is run.  What was already computed on every way to a step is not
 ;;;; computed again.
 ;;;;
-;;;; Where a number comes from must be known before the closure that reads it, the next closure
-;;;; before the one that calls it.  So code is written first, as functions from the next closure to
-;;;; the closure of a step, and linked afterwards, from its end.
+;;;; A closure can be made only when its registers and the next closure are known.  The registers
+;;;; become known from the beginning of a chain on, the next closures from its end on.  So each step
+;;;; first becomes a function from the next closure to its own.  These functions are linked
+;;;; afterwards, from the end.
 
 (in-package :supergrip)
 

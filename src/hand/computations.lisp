@@ -2,8 +2,8 @@
 ;;;;
 ;;;; What forms can't say, such as what contacts can exert, is a computation.  It takes a thousand
 ;;;; times as long as a form, and the same numbers come again.  So it has a table of bounded size,
-;;;; in which a result takes the place of another one: no list grows, and no lock is needed, since
-;;;; an entry never changes once it is there.
+;;;; in which a new result replaces an old one.  No list grows.  No lock is needed, since an entry
+;;;; never changes once it is there.
 
 (in-package :supergrip)
 

@@ -331,7 +331,7 @@ BODY is."
 
 (defun parse-let (form scope wanted sequential)
   (if (not (and (= (length form) 3) (listp (second form))))
-      (complain form "~a is (~:*~a ((name form)...) form)" (first form))
+      (complain form "~a is written (~:*~a ((name form)...) form)" (first form))
       (let ((inner scope) (nodes '()) (good t))
         (dolist (binding (second form))
           (let ((entry (parse-binding binding (if sequential inner scope) form)))

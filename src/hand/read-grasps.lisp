@@ -219,7 +219,7 @@ itself."
   "Return the node of FORM, the mobility; complain of an entry below zero."
   (let ((node (parse-form form scope :six)))
     (if (and node (negative-twist node))
-        (complain form "an entry below 0: mobility is 0 or more")
+        (complain form "an entry is below 0, but a mobility must be 0 or more")
         node)))
 
 (defun parse-grasp (name plist form scope)

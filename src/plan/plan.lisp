@@ -293,8 +293,8 @@ Rules that end without KEEP or CANT keep the best."
 (define-condition gamma-error (supergrip-error)
   ((gamma :initarg :gamma :reader gamma-error-gamma))
   (:report (lambda (condition stream)
-             (format stream "gamma is ~a; it is a number from 0, forces alone, to 1, ~
-                             velocities alone" (form-text (gamma-error-gamma condition)))))
+             (format stream "gamma is ~a, but must be a number from 0 (forces alone) to 1 ~
+                             (velocities alone)" (form-text (gamma-error-gamma condition)))))
   (:documentation "The selection parameter is no number from 0 to 1."))
 
 (defun plan-verdict (&optional (plan (last-plan)))

@@ -2,7 +2,7 @@
 ;;;;
 ;;;; Grasping conditions, offset, positions of the fingers, wrench and twist rotated to X Y Z,
 ;;;; lifting, quality.  A candidate that passes is possible; one that fails records the step that it
-;;;; failed.  An index says by what a grasp is rated: its last steps are its own.
+;;;; failed.  An index says by what a grasp is rated.  Each index has last steps of its own.
 
 (in-package :supergrip)
 
@@ -44,7 +44,7 @@ and a log: the best candidate, or NIL."
   "Return the index NAME, a keyword, or signal an ARGUMENT-ERROR."
   (or (loop for index of-type index in *indices*
             when (eq name (index-name index)) return index)
-      (refuse-argument "index is ~a; it is ~{~s~^ or ~}" (form-text name)
+      (refuse-argument "index is ~a, but must be ~{~s~^ or ~}" (form-text name)
                        (mapcar #'index-name *indices*))))
 
 (defun make-six () (make-array 6 :element-type 'double-float :initial-element 0d0))

@@ -98,6 +98,6 @@ Source: the paper, Low-level System."
   "(KEEP 'BEST): print the paper's closing lines for what was tried in PLAN, by hand or by rules.
 Return the best candidate, NIL if none is possible."
   (unless (equal (name-of what) "BEST")
-    (refuse-argument "~a can't be kept: what can be is the best, (keep 'best)" (form-text what)))
+    (refuse-argument "~a can't be kept: only the best can, by (keep 'best)" (form-text what)))
   (plainly (write-verdict (need-plan plan) *standard-output*))
   (plan-best plan))

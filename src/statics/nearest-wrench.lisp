@@ -1,10 +1,11 @@
 ;;;; nearest-wrench.lisp -- whether fingers can exert one wrench, how, and how far they reach along
 ;;;; one.
 ;;;;
-;;;; Wolfe's method finds the wrench of a grip that is nearest to a target: the nearest mixture of
-;;;; at most seven wrenches is kept; the grip's greatest wrench towards the target joins them, and
-;;;; those that the nearest mixture does without leave.  If the target can't be reached, the way to
-;;;; it from the nearest wrench is a motion that shows it.
+;;;; Wolfe's method finds the wrench of a grip that is nearest to a target.  It keeps at most seven
+;;;; wrenches, and their mixture that is nearest to the target.  In each step the grip's greatest
+;;;; wrench towards the target joins them, and those leave that the nearest mixture does not need.
+;;;; If the target can't be reached, the way to it from the nearest wrench is a motion that shows
+;;;; it.
 
 (in-package :supergrip-statics)
 

@@ -1,8 +1,8 @@
 ;;;; pure-wrench.lisp -- how far a closed grip reaches along one wrench, to ten places.
 ;;;;
 ;;;; The greatest multiple of a wrench d is the least of h(q), the fingers' power, over the motions
-;;;; q with q.d = 1.  h has edges; so each finger is kept from its limits by logarithms, MU times as
-;;;; much, and Newton's method finds the least for ever smaller MU (a barrier method).  There the
+;;;; q with q.d = 1.  h has edges; so logarithms with the weight MU keep each finger from its
+;;;; limits, and Newton's method finds the least for ever smaller MU (a barrier method).  There the
 ;;;; fingers' forces make a multiple of d and nothing else: that is a lower bound, and h(q) is an
 ;;;; upper one.  They differ by 15 MU for three fingers.
 

@@ -211,8 +211,8 @@ choice to change."
   "Write what SURE, a sure radius, is, if it is one; TRUTH is the EXACT-LIMIT, or NIL."
   (cond ((null sure))
         ((and truth (> sure (* (+ 1 +tie+) (exact-limit-upper truth))))
-         (format stream "By WRENCH ~a times the forces and torques asked for would be sure: more ~
-                         than the contacts can exert.~%" (number-text sure)))
+         (format stream "WRENCH promises ~a times the forces and torques asked for, which is ~
+                         more than the contacts can exert.~%" (number-text sure)))
         (t (format stream "What is sure: together, and in any direction, the contacts bear ~a ~
                            times the forces and torques asked for.~%" (number-text sure)))))
 

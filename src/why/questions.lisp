@@ -1,4 +1,5 @@
-;;;; questions.lisp -- HOW and WHY-NOT, typed: each answers what was meant for the other.
+;;;; questions.lisp -- HOW and WHY-NOT, as they are typed.  A question that is meant for the other
+;;;; is answered by the other.
 
 (in-package :supergrip)
 
