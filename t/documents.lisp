@@ -257,6 +257,12 @@ relative to the project, if they are in one of *DIRECTORIES*."
           for row = (find-if (lambda (line) (eql 0 (search start line))) lines)
           do (is (search (format nil "| ~{~a~^, ~} |" files) row) "~a: ~{~a~^, ~}" room files))))
 
+(test each-suite-has-the-name-of-its-file
+  (dolist (file (uiop:directory-files (project-file "t/") "*.lisp"))
+    (dolist (line (lines-of (uiop:read-file-string file)))
+      (when (eql 0 (search "(define-suite " line))
+        (is (equal (pathname-name file) (second (uiop:split-string line))) "~a" file)))))
+
 (test documents-name-files-that-are-there
   (dolist (document (documents))
     (dolist (file (linked-files document))

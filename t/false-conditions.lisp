@@ -1,7 +1,7 @@
 ;;;; false-conditions.lisp -- the nearest miss: what is false of it, how far off, in words.
 
 (in-package :supergrip-test)
-(define-suite misses "The nearest miss: what is false of it, how far off, in words.")
+(define-suite false-conditions "The nearest miss: what is false of it, how far off, in words.")
 
 (defun reason-of (size u constrained &key (weight 0.1d0))
   "Return the reason that no grasp is possible, from the nearest miss on."

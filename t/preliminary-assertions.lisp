@@ -2,7 +2,7 @@
 ;;;; it.
 
 (in-package :supergrip-test)
-(define-suite inputs "A preliminary assertion is one row, and everything follows from it.")
+(define-suite preliminary-assertions "A preliminary assertion is one row, and everything follows from it.")
 
 (defun knowledge-with-rule (text)
   "Return the shipped knowledge with the rule TEXT before all others, and the list of the problems."

@@ -2,7 +2,7 @@
 ;;;; answers.
 
 (in-package :supergrip-test)
-(define-suite plain "Texts whatever the printer is set to, names in any form, bounded answers.")
+(define-suite printer-settings "Texts whatever the printer is set to, names in any form, bounded answers.")
 
 (defmacro with-odd-printer (&body body)
   "Run BODY with the printer as no text of ours may show it."

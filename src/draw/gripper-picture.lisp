@@ -140,10 +140,10 @@
                        (/ 280 (+ (* 1.6 (size "REACH-U")) (* 0.5 length))))))
       (with-picture (1100 500 "Gripper"
                      (format nil "Three views of a hand with three fingers, and what each of its~%~
-                                  dimensions measures: the distance of opposed bases, the length of ~
-                                  a link, the opening; the spread of~%~
-                                  fingers side by side, the width of the hand, the least width of a ~
-                                  face; and the reach of the thumb."))
+                                  dimensions measures: the distance of opposed bases, the length ~
+                                  of a link, the opening; the spread of~%~
+                                  fingers side by side, the width of the hand, the least width of ~
+                                  a face; and the reach of the thumb."))
         (draw-heading (format nil "What a gripper’s dimensions measure~@[: ~a~]"
                               (knowledge-model knowledge))
                       '("Lengths in cm, in one scale.  Palm and links are a diagram.")
