@@ -53,8 +53,9 @@
   (defvar *shown* nil "True while *MESSAGES* shows how far work is.")
 
   (defun progress (check &optional (start (get-internal-real-time)))
-    "Return a function to be called after each file that is compiled, a CHECK as ASDF asks for, with CHECK, one
-or NIL, in it.  On a terminal it shows, two seconds after START, how many files there were."
+    "Return a function to be called after each file that is compiled, a CHECK as ASDF asks for.  It
+calls CHECK, one more such function, or NIL.  From two seconds after START on it shows on a terminal
+how many files there were."
     (let ((count 0))
       (lambda (&rest arguments)
         (incf count)
@@ -109,8 +110,8 @@ or NIL, in it.  On a terminal it shows, two seconds after START, how many files 
     (invoke-restart restart))
 
   (defun load-compiled (system)
-    "Load SYSTEM, compiling what needs it, also a compiled file that can't be loaded.  Return true if
-that can be done."
+    "Load SYSTEM, compiling what needs it, also a compiled file that can't be loaded.  Return true
+if that can be done."
     (let ((tried '())
           (*error-output* *error-output*))
       (handler-bind
@@ -136,7 +137,8 @@ that can be done."
     (or (load-compiled system)
         (progn
           (when (interactive-stream-p *messages*)
-            (tell "What is compiled can't be kept, so the sources are loaded: it takes some seconds."))
+            (tell "Compiled files can't be kept, so the sources are loaded; this takes some ~
+                   seconds."))
           (call-quietly #'asdf:operate 'asdf:load-source-op system))))
 
   (defun find-library (name)

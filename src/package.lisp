@@ -37,7 +37,8 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:not-chosen-candidates #:not-chosen-refusals #:not-chosen-outcome #:not-chosen-margin
    #:not-chosen-faces
    #:choice #:choice-sentence #:choice-force #:choice-velocity #:choice-sure
-   #:choice-demand #:demand-fits #:demand-surely #:demand-at-most #:demand-weakest #:demand-on #:demand-text
+   #:choice-demand #:demand-fits #:demand-surely #:demand-at-most #:demand-weakest #:demand-on
+   #:demand-text
    #:demand #:choice-runner-up #:choice-margin
    #:choice-changes #:choice-stepped #:limit #:limit-axis #:limit-has #:limit-needs #:limit-radius
    #:change #:change-words #:change-what #:change-from #:change-to #:change-box #:change-plan
@@ -61,13 +62,16 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:finding-boxes #:finding-witness #:finding-more
    ;; boxes
    #:parse-box #:box-name #:box-size #:box-weight #:box-friction #:box-soft-friction
-   #:box-constrained #:box-force-needed #:box-velocity-needed #:box-value #:define-box-key #:box-facts
+   #:box-constrained #:box-force-needed #:box-velocity-needed #:box-value #:define-box-key
+   #:box-facts
    #:box-pose #:box-centre #:box-down #:box-gravity
    ;; knowledge
    #:*knowledge* #:load-knowledge #:knowledge #:knowledge-rules #:knowledge-grasps
-   #:declared-inputs #:knowledge-gripper #:knowledge-model #:knowledge-warnings #:knowledge-rulebase #:grasp-name #:grasp-form
+   #:declared-inputs #:knowledge-gripper #:knowledge-model #:knowledge-warnings #:knowledge-rulebase
+   #:grasp-name #:grasp-form
    ;; plans
-   #:plan #:*gamma* #:plan-box #:plan-knowledge #:plan-gamma #:plan-index #:plan-verdict #:plan-reason
+   #:plan #:*gamma* #:plan-box #:plan-knowledge #:plan-gamma #:plan-index #:plan-verdict
+   #:plan-reason
    #:plan-best #:plan-candidates #:plan-possible #:plan-rejected #:plan-log #:plan-assertions
    #:plan-grasp #:plan-matching #:plan-quality #:plan-stop #:plan-memory #:plan-events
    #:write-transcript
@@ -85,7 +89,8 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    ;; refining
    #:refine #:refinement #:refinement-p #:refinement-candidate #:refinement-plan #:refinement-home
    #:refinement-contacts #:refinement-moved-p #:refinement-radius-before #:refinement-radius
-   #:refinement-radius-bound #:refinement-radius-nearby #:refinement-quality-before #:refinement-quality
+   #:refinement-radius-bound #:refinement-radius-nearby #:refinement-quality-before
+   #:refinement-quality
    #:refinement-quality-bound #:explain-refinement
    ;; directions
    #:direction-shares #:direction-text
@@ -93,7 +98,8 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
    #:exact-radius #:holds-p #:contact-forces #:wrench-entries #:least-squeeze #:least-friction
    #:sure-radius
    ;; conditions, from the data layer
-   #:supergrip-error #:input-error #:input-error-problems #:input-error-consequence #:syntax-error #:box-error
+   #:supergrip-error #:input-error #:input-error-problems #:input-error-consequence #:syntax-error
+   #:box-error
    #:knowledge-error #:knowledge-warning #:knowledge-warning-problems #:retry
    #:no-box-error #:no-plan-error #:no-grasp-error #:no-rule-error #:no-fact-error
    #:gamma-error #:argument-error
@@ -108,5 +114,5 @@ rectangular box: rules decide which grasps are worth trying, statics how good ea
   (:use :cl :supergrip)
   (:shadow #:setq #:try #:keep #:possible-grasps #:assertions #:rules #:grasps #:grasp #:gripper)
   (:export #:setq #:input)
-  (:documentation "A package to type in.  The paper's words have symbols of their own here: the lists
-can be typed like variables, and a variable of the user's may have the name of a function."))
+  (:documentation "A package to type in.  The paper's words have symbols of their own here: the
+lists can be typed like variables, and a variable of the user's may have the name of a function."))

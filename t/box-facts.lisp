@@ -61,7 +61,7 @@
           '(("null"
              "\"facts\": null is not valid: \"facts\" takes lists of words, each of which may end in one list of faces: \"facts\": [[\"FRAGILE\", [\"Z1\"]], [\"WET\"]]")
             ("[[\"A\", \"Z1\"]]"
-             "[\"A\", \"Z1\"] is not a fact: faces go in a list of their own, at the end: [\"A\", [\"Z1\"]]")
+             "[\"A\", \"Z1\"] is not a fact: its faces belong in a list of their own, at the end: [\"A\", [\"Z1\"]]")
             ("[[\"A\", [\"Z3\", 1]]]"
              "\"Z3\" is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2"
              "1 is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2"))
@@ -70,27 +70,29 @@
                  "~a" facts))))
 
 (test facts-that-are-none-are-refused
-  (let ((takes "facts are lists of words, each of which may end in one list of faces: (FACTS (FRAGILE (Z1)) (WET))"))
+  (let ((takes "FACTS takes lists of words, each of which may end in one list of faces: (FACTS (FRAGILE (Z1)) (WET))"))
     (loop for (fact text) in
           `((wet ,takes) ((wet ()) ,takes) (((z1)) ,takes) ((wet (z1) (z2)) ,takes) ((wet 3) ,takes)
             (() ,takes) (("") ,takes) (("(") ,takes)
-            ((wet z1) "faces go in a list of their own, at the end: (WET (Z1))")
-            ((not wet) "what a box does not say is false, so leave it out"))
-          do (is (equal (list (format nil "BOX: ~a is not a fact: ~a" (supergrip-data:form-text fact)
+            ((wet z1) "its faces belong in a list of their own, at the end: (WET (Z1))")
+            ((not wet)
+             "a fact can't be negated; leave it out, since what a box does not say is false"))
+          do (is (equal (list (format nil "BOX: ~a is not a fact: ~a"
+                                      (supergrip-data:form-text fact)
                                       text))
                         (said-of fact))
                  "~s" fact)))
   (is (equal '("BOX: Z9 is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2"
-               "BOX: X1 stands twice in one list of faces"
-               "BOX: (LIKE (Y1 Z1)) is said twice")
+               "BOX: X1 occurs twice in one list of faces"
+               "BOX: the fact (LIKE (Y1 Z1)) is given twice")
              (said-of '(fragile (z9)) '(like (x1 x1)) '(like (z1 y1)) '(like (y1 z1))))))
 
 (test facts-that-nothing-declares-are-refused
   (is (equal '("BOX: (FRAGLE (Z1)): no INPUT declares FRAGLE (did you mean FRAGILE?); to allow it, add (INPUT FRAGLE (S1)) to rules.lisp, or type (edit '(INPUT FRAGLE (S1)))"
                "BOX: (PARALLEL (Y2 Y1)): no INPUT declares PARALLEL; to allow it, add (INPUT PARALLEL (S1 S2)) to rules.lisp, or type (edit '(INPUT PARALLEL (S1 S2)))"
-               "BOX: (LIKE (Z1)): LIKE takes 2 faces, as (INPUT LIKE (S1 S2)) in rules.lisp says; here it has 1"
-               "BOX: (WET (Z1)): WET takes no faces, as (INPUT WET) in rules.lisp says; here it has 1"
-               "BOX: (NARROW (Y2 Y1)): NARROW is no fact of a box's own: the other keys, and the gripper, decide it")
+               "BOX: (LIKE (Z1)): LIKE takes 2 faces, not 1; (INPUT LIKE (S1 S2)) declares it so in rules.lisp"
+               "BOX: (WET (Z1)): WET takes no faces, not 1; (INPUT WET) declares it so in rules.lisp"
+               "BOX: (NARROW (Y2 Y1)): NARROW can't be stated as a fact: it follows from the box's other keys and the gripper")
              (said-of '(fragle (z1)) '(parallel (y2 y1)) '(fragile (y1)) '(like (z1)) '(wet (z1))
                       '(narrow (y2 y1)))))
   (is (equal '("1: BOX: (FRAGILE (Z1)): no INPUT declares FRAGILE; to allow it, add (INPUT FRAGILE (S1)) to rules.lisp")
@@ -136,7 +138,8 @@
                                                  box))))))))
 
 (test a-half-turn-is-the-same-grasp-whatever-the-facts
-  ;; TRY knows no facts: of two matchings that are half a turn apart it takes the one suggested first.
+  ;; TRY knows no facts: of two matchings that are half a turn apart it takes the one suggested
+  ;; first.
   (flet ((tried (grasp rules &rest facts)
            (loop with text = (format nil "(INPUT FRAGILE (s1)) ~{~a ~}" rules)
                  for candidate in (supergrip:plan-candidates
@@ -151,10 +154,12 @@
       (dolist (grasp '("PINCH-2-PARALLEL" "PINCH-3-PARALLEL"))
         (let ((without (tried grasp (list all))))
           (is (plusp (count "Y2" without :test #'string=)))
-          (is (equal without (tried grasp (list all gentle) '(fragile (y1)))) "the twins were tried")
+          (is (equal without (tried grasp (list all gentle) '(fragile (y1))))
+              "the twins were tried")
           (dolist (face '("Y1" "Y2"))
             (is (equal (sort (substitute face "Y2" without :test #'string=) #'string<)
-                       (sort (tried grasp (list (changed gentle "~:*" "") (changed all "~a" "~:*~a"))
+                       (sort (tried grasp
+                                    (list (changed gentle "~:*" "") (changed all "~a" "~:*~a"))
                                     `(fragile (,face)))
                              #'string<))
                 "~a first: ~a" grasp face)))))))
@@ -224,7 +229,8 @@
       (is (equal '("SLIPPERY is a preliminary assertion; its threshold is SLIPPERY-U, 0.1."
                    "It is tested by no rule.")
                  (described "slippery")))
-      (is (equal '("OPPOSED (S1 S2) is a preliminary assertion." "It is tested by GENTLE1, GENTLE2.")
+      (is (equal '("OPPOSED (S1 S2) is a preliminary assertion."
+                   "It is tested by GENTLE1, GENTLE2.")
                  (described 'opposed)))
       (is (equal "there is no input FRAGLE (did you mean FRAGILE?); there are OPPOSED, SMALL, NARROW, LARGE, CONSTRAINED, SLIPPERY, FRAGILE, WET, LIKE"
                  (error-text (described 'fragle))))
@@ -237,7 +243,8 @@
 (test declarations-are-typed-replaced-and-forgotten
   (with-knowledge-restored
     (handler-bind ((warning #'muffle-warning))
-      (flet ((declared () (loop for (words count) in (supergrip:declared-inputs supergrip:*knowledge*)
+      (flet ((declared () (loop for (words count)
+                                in (supergrip:declared-inputs supergrip:*knowledge*)
                                 collect (format nil "~{~a~^ ~} ~d" words count))))
         (eval-in-user "(input fragile (s1))")
         (supergrip:edit '(input object has lid))
@@ -261,7 +268,7 @@
               "(INPUT WET) (RULE WET1 (IF (WET)) (THEN (CANT GRASP IT WET)))"))
         (old supergrip:*knowledge*))
     (is (equal '("12 x 2 x 2 cm: can't, was PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1) Q=0.860"
-                 "1 of 2 boxes differ: 1 in verdict, 0 in grasp, 0 in quality.")
+                 "1 of 2 boxes differs: 1 in verdict, 0 in grasp, 0 in quality.")
                (printed (supergrip:compare-knowledge old new
                                                      (list (box-saying '(wet)) (paper-box))))))
     (is (equal '(("WET"))

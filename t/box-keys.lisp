@@ -1,7 +1,7 @@
 ;;;; box-keys.lisp -- a key of a box is one row, in both notations.
 
 (in-package :supergrip-test)
-(define-suite keys "A key of a box is one row, in both notations.")
+(define-suite box-keys "A key of a box is one row, in both notations.")
 
 (defun json-box (text)
   "Return the box that TEXT, JSON, describes."

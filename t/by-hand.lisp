@@ -142,7 +142,7 @@
             ("there is no value after the key :GAMMA of TRY" pinch-3-u-shape :gamma))
           do (is (equal text (error-text (apply #'supergrip:try arguments)))))
     (is (null supergrip:*plan*))
-    (is (equal "WORST can't be kept: what can be is the best, (keep 'best)"
+    (is (equal "WORST can't be kept: only the best can, by (keep 'best)"
                (error-text (supergrip:keep 'worst))))
     (signals supergrip:gamma-error (supergrip:try 'pinch-3-corner :gamma 2))
     (signals supergrip:box-error (supergrip:try 'pinch-3-corner :box 3))
@@ -176,7 +176,8 @@
       (let* ((grasp (random-element *shipped-grasps* state))
              (suggestion (some-faces-of-a-matching state))
              (knowledge (text-knowledge
-                         (format nil "(RULE R (IF (OPPOSED (X1 X2))) (THEN (TRY ~a ~a)))" grasp suggestion)
+                         (format nil "(RULE R (IF (OPPOSED (X1 X2))) (THEN (TRY ~a ~a)))" grasp
+                                 suggestion)
                          (file-text "grasps.lisp"))))
         (dotimes (j 10)
           (let* ((box (random-box state))

@@ -1,7 +1,9 @@
-;;;; chainer.lisp -- rules without grasps: matching, negation, order, and all that is wrong with a rule.
+;;;; chainer.lisp -- rules without grasps: matching, negation, order, and all that is wrong with a
+;;;; rule.
 
 (in-package :supergrip-test)
-(define-suite chainer "Rules without grasps: matching, negation, order, and all that is wrong with a rule.")
+(define-suite chainer
+  "Rules without grasps: matching, negation, order, and all that is wrong with a rule.")
 
 (defun rule-forms (text)
   (supergrip-data:read-all (supergrip-data:string-source text)))
@@ -39,7 +41,8 @@ Returns what the rules said, a list of strings, and the stop."
 (test surfaces-pack
   (is (equal '("Z2" "X1" "Y1")
              (supergrip-chainer:face-list-names
-              (supergrip-chainer:make-face-list (mapcar #'supergrip-chainer:face-index '(z2 x1 y1))))))
+              (supergrip-chainer:make-face-list (mapcar #'supergrip-chainer:face-index
+                                                        '(z2 x1 y1))))))
   (is (equal '("Z2" "Z1" "Y2" "Y1" "X2" "X1")
              (supergrip-chainer:face-list-names (supergrip-chainer:make-face-list '(0 1 2 3 4 5)))))
   (loop for (name axis sign) in '((x1 0 1) (x2 0 -1) (y1 1 1) (y2 1 -1) (z1 2 1) (z2 2 -1))
@@ -95,7 +98,8 @@ Returns what the rules said, a list of strings, and the stop."
                               *pairs*)))
       "a box has twelve edges")
   (is (equal '("R: EDGE Z1 Y2" "R: EDGE Z1 Y1" "R: EDGE Z1 X2" "R: EDGE Z1 X1")
-             (run-text "(RULE R (IF (NOT OPPOSED (Z1 s1))) (THEN (REMEMBER EDGE (Z1 s1))))" *pairs*))
+             (run-text "(RULE R (IF (NOT OPPOSED (Z1 s1))) (THEN (REMEMBER EDGE (Z1 s1))))"
+                       *pairs*))
       "a list holds distinct surfaces, constants too"))
 
 (test distinct-variables-bind-distinct-surfaces

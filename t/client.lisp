@@ -135,7 +135,8 @@ executable."
 
 (test standard-input-may-begin-with-a-byte-order-mark
   (with-python
-    (with-text-file (parts (format nil "~c~a,,~%a,60,60,60,0.1,,~%,,,,~%" (code-char #xfeff) *columns*))
+    (with-text-file (parts (format nil "~c~a,,~%a,60,60,60,0.1,,~%,,,,~%" (code-char #xfeff)
+                                   *columns*))
       (multiple-value-bind (status output)
           (run-process (list "sh" "-c" "python3 \"$0\" --boxes - < \"$1\""
                              (uiop:native-namestring (project-file "examples/client.py")) parts))
@@ -189,8 +190,8 @@ executable."
     (with-text-file (parts (format nil "~a~%~{~a,60,60,60,0.1~%~}" *columns*
                                    (loop for part below 300 collect part)))
       (multiple-value-bind (status output errors)
-          (run-process (list "sh" "-c" (format nil "python3 \"$0\" --program \"$1\" \"$2\" --gripper ~
-                                                    \"$3\" | head -n 1")
+          (run-process (list "sh" "-c" (format nil "python3 \"$0\" --program \"$1\" \"$2\" ~
+                                                    --gripper \"$3\" | head -n 1")
                              (uiop:native-namestring (project-file "examples/client.py"))
                              (program) parts (robotiq)))
         (is (eql 0 status))

@@ -87,7 +87,8 @@ def print_tightness(lines):
               len(wrong), "open and called closed")
         print("  of", len(cubes), "closed ones nearly cubes,",
               sum(case[0].min() <= 0 for case in cubes), "called open")
-        for name, values in (("median", np.median(ratios, 0)), ("10 %", np.quantile(ratios, 0.1, 0)),
+        for name, values in (("median", np.median(ratios, 0)),
+                             ("10 %", np.quantile(ratios, 0.1, 0)),
                              ("greatest", ratios.max(0))):
             print(f"  entry / true value, {name}:", *(f"{value:.2f}" for value in values))
 

@@ -34,7 +34,8 @@
   (dolist (text '("null" "true" "false" "{}" "[]" "[[]]" "[{}]" "\"\"" "0" "-0" "1.10" "1E5" "1e-7"
                   "123456789012345678901234567890123456789" "0.1000000000000000055511151231257827"
                   "[1,[2,[3,[]]],{\"a\":{\"data\":1.50}}]" "{\"b\":1,\"a\":2,\"b\":3}"
-                  "\"a\\u000Ab\\u0000\\u001B\\u007F\\u0085\\u2028\\\"\\\\/\"" "[null,false,[],{},0,\"\"]"))
+                  "\"a\\u000Ab\\u0000\\u001B\\u007F\\u0085\\u2028\\\"\\\\/\""
+                  "[null,false,[],{},0,\"\"]"))
     (is (equal text (data-in-json :json text))))
   (is (equal "[1,{\"a\":2}]" (data-in-json :json (format nil " [ 1 ,~%{ \"a\" : 2 } ] "))))
   (let ((deep (concatenate 'string (make-string 31 :initial-element #\[)
@@ -52,7 +53,8 @@
 (test data-in-the-other-notation
   (loop for (json lisp) in
         '(("null" ":NULL") ("true" ":TRUE") ("false" ":FALSE") ("[]" "NIL") ("{}" "(:OBJECT)")
-          ("[1,\"a\",[]]" "(1 \"a\" NIL)") ("{\"a\":{\"B\":null}}" "(:OBJECT \"a\" (:OBJECT \"B\" :NULL))")
+          ("[1,\"a\",[]]" "(1 \"a\" NIL)")
+          ("{\"a\":{\"B\":null}}" "(:OBJECT \"a\" (:OBJECT \"B\" :NULL))")
           ("1.5" "1.5d0") ("[\"a\\u000Ab\"]" "((:STRING \"a\" 10 \"b\"))")
           ("\"\\u001B\"" "(:STRING 27)"))
         do (is (equal lisp (data-in-lisp :json json)))
@@ -67,7 +69,8 @@
 (test every-record-of-a-box-with-data-has-them-last
   (let* ((good (changed *json-pencil* "}" ", \"data\": {\"part\": 17.0}}"))
          (bad (changed good "[12, 2, 2]" "[12, 2]")))
-    (multiple-value-bind (status output) (run-on (format nil "~a~%~a~%~a" (one-line good) (one-line bad)
+    (multiple-value-bind (status output) (run-on (format nil "~a~%~a~%~a" (one-line good)
+                                                         (one-line bad)
                                                          (one-line *json-pencil*))
                                                  (list (program) "--format" "json"))
       (is (= 65 status))

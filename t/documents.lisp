@@ -1,9 +1,9 @@
 ;;;; documents.lisp -- what README.md and docs/ show is what happens.
 ;;;;
-;;;; A `lisp` block that begins with the prompt * is a transcript of the REPL, and is typed again; each
-;;;; document starts from nothing.  Another `lisp` block is data, and must be valid; a `json` block is
-;;;; a box.  In a `console` block each line that begins with $ is a command; it runs in the project's
-;;;; directory.
+;;;; A `lisp` block that begins with the prompt * is a transcript of the REPL, and is typed again;
+;;;; each document starts from nothing.  Another `lisp` block is data, and must be valid; a `json`
+;;;; block is a box.  In a `console` block each line that begins with $ is a command; it runs in the
+;;;; project's directory.
 
 (in-package :supergrip-test)
 (define-suite documents "What README.md and docs/ show is what happens.")
@@ -214,8 +214,8 @@
         while to collect (subseq text from to)))
 
 (defun linked-files (document)
-  "Return the files that DOCUMENT names: in its links, relative to it, and between backquotes, relative
-to the project, if they are in one of *DIRECTORIES*."
+  "Return the files that DOCUMENT names: in its links, relative to it, and between backquotes,
+relative to the project, if they are in one of *DIRECTORIES*."
   (let ((text (file-text document)))
     (append
      (loop for link in (texts-between "](" #\) text)
@@ -243,7 +243,8 @@ to the project, if they are in one of *DIRECTORIES*."
 
 (defun rooms ()
   "Return a list of (ROOM . FILES), strings, as the systems have them."
-  (append (loop for system in '("supergrip/chainer" "supergrip/statics" "supergrip" "supergrip/batch")
+  (append (loop for system
+                in '("supergrip/chainer" "supergrip/statics" "supergrip" "supergrip/batch")
                 append (loop for room in (asdf:component-children (asdf:find-system system))
                              when (typep room 'asdf:module)
                                collect (cons (asdf:component-name room) (component-files room))))
@@ -255,6 +256,12 @@ to the project, if they are in one of *DIRECTORIES*."
           for start = (format nil "| `~a/` |" room)
           for row = (find-if (lambda (line) (eql 0 (search start line))) lines)
           do (is (search (format nil "| ~{~a~^, ~} |" files) row) "~a: ~{~a~^, ~}" room files))))
+
+(test each-suite-has-the-name-of-its-file
+  (dolist (file (uiop:directory-files (project-file "t/") "*.lisp"))
+    (dolist (line (lines-of (uiop:read-file-string file)))
+      (when (eql 0 (search "(define-suite " line))
+        (is (equal (pathname-name file) (second (uiop:split-string line))) "~a" file)))))
 
 (test documents-name-files-that-are-there
   (dolist (document (documents))

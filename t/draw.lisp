@@ -33,7 +33,8 @@
                     (let ((*package* (find-package :supergrip-user)) (*read-eval* nil))
                       (loop for form = (ignore-errors (read in nil))
                             while form
-                            when (and (consp form) (symbolp (first form)) (string= (first form) "SETQ")
+                            when (and (consp form) (symbolp (first form))
+                                      (string= (first form) "SETQ")
                                        (string= (second form) "BOX"))
                               return (second (third form)))))
         when box collect (cons (pathname-name file) box)))
@@ -241,19 +242,22 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                                              ("STRIP" "((DIST '(N1 N2)) < FINGER-WIDTH) AND ((DIST '(A1 A2)) > DIST-PINCH)")
                                              ("SMOOTH" "U < 0.5")
                                              ("LYING" "(CONSTRAINED O1)"))
-                                        collect (own-grasp-text name conditions "(N1 0 0)" "(N2 0 0)")))))))
+                                        collect (own-grasp-text name conditions "(N1 0 0)"
+                                                                "(N2 0 0)")))))))
     (dolist (grasp (supergrip:knowledge-grasps knowledge))
       (is (supergrip-draw::reference-candidate grasp knowledge) "~a" grasp))))
 
 (test any-number-of-fingers-is-drawn
   (let ((knowledge (knowledge-with
                     (format nil "~a~a~a"
-                            (own-grasp-text "FOUR" "T" "(N1 0 0)" "(N1 1/2 0)" "(N1 0 1/2)" "(N1 1/2 1/2)")
+                            (own-grasp-text "FOUR" "T" "(N1 0 0)" "(N1 1/2 0)" "(N1 0 1/2)"
+                                            "(N1 1/2 1/2)")
                             (own-grasp-text "SAME" "T" "(N1 0 0)" "(N1 0 0)" "(N1 0 0)" "(N1 0 0)"
                                         "(N1 0 0)" "(N2 0 0)" "(A1 0 0)" "(A2 0 0)")
                             (apply #'own-grasp-text "MANY" "T"
                                    (loop for i below 16
-                                         collect (format nil "(N1 ~a ~a)" (/ i 16) (/ (mod i 4) 4))))))))
+                                         collect (format nil "(N1 ~a ~a)" (/ i 16)
+                                                         (/ (mod i 4) 4))))))))
     (with-folder (folder)
       (dolist (name '("FOUR" "SAME" "MANY"))
         (let ((plan (supergrip:try-grasp name (cdr (assoc "pencil" (example-boxes) :test #'string=))
@@ -364,7 +368,8 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
       (loop for (file complaints) in (parsed folder)
             do (is (null complaints) "~a: ~a" file complaints))
       (is (equal "the gripper can't be drawn: it names no FINGER-LENGTH, FINGER-DIST, FINGER-SPREAD and REACH-U"
-                 (handler-case (supergrip-draw:draw-gripper (in-folder folder "x.svg") :knowledge jaw)
+                 (handler-case (supergrip-draw:draw-gripper (in-folder folder "x.svg")
+                                                            :knowledge jaw)
                    (supergrip:supergrip-error (condition) (princ-to-string condition)))))
       (signals supergrip:no-grasp-error
         (supergrip-draw:draw-offset (in-folder folder "x.svg") :knowledge jaw)))))
@@ -573,7 +578,8 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
            (grasp (supergrip:plan (append *good-box* (list (butlast facts))) :knowledge knowledge)))
       (flet ((shown (draw plan)
                (uiop:read-file-string (funcall draw plan (in-folder folder "p")))))
-        (dolist (words '("Facts of its own</th>" "FRAGILE (Y1) and WET" "fact-6-8" "href='#fact-6-8'"
+        (dolist (words '("Facts of its own</th>" "FRAGILE (Y1) and WET" "fact-6-8"
+                         "href='#fact-6-8'"
                          "Facts of its own: FRAGILE (Y1), WET."))
           (is (search (substitute #\" #\' words) (substitute #\" #\' (shown #'supergrip-draw:report
                                                                             cant)))
@@ -617,7 +623,8 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
 
 (test pages-and-pictures-are-in-the-units-of-the-box
   (let* ((knowledge (force-knowledge))
-         (plan (supergrip:plan '((units mm n) (name "pen") (size 120 20 20) (weight 4) (u 0.8d0) (v 2)
+         (plan (supergrip:plan '((units mm n) (name "pen") (size 120 20 20) (weight 4) (u 0.8d0)
+                                 (v 2)
                                  (constrained z2 x1) (force-needed (20 16 16 60 200 200))
                                  (velocity-needed (0 0.8d0 0.8d0 0 0.8d0 0.8d0)))
                                :knowledge knowledge)))
@@ -630,4 +637,5 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
                         "forces in N, torques in N mm; velocities from 0 to 1"
                         "Lengths in mm, forces in N, torques in N mm."))
           (is (search part page) "~a" part))
-        (is (not (search " cm" (subseq page (search "<body" page) (search "All candidates" page)))))))))
+        (is (not (search " cm"
+                         (subseq page (search "<body" page) (search "All candidates" page)))))))))

@@ -46,7 +46,8 @@
       (supergrip:edit '("input" "very dry")))
     (is (equal '((("FRAGILE") 1) (("VERY" "DRY") 0))
                (supergrip:declared-inputs supergrip:*knowledge*)))
-    (supergrip:edit '("rule" "grip12" ("if" ("parallel" ("s1" "s2")) ("fragile" ("s1")) ("not very dry"))
+    (supergrip:edit '("rule" "grip12"
+                      ("if" ("parallel" ("s1" "s2")) ("fragile" ("s1")) ("not very dry"))
                       ("then" ("try" "pinch-2-parallel" ("s1" "s2" "?" "?" "?" "?")))))
     (is (equal "(RULE GRIP12 (IF (PARALLEL (S1 S2)) (FRAGILE (S1)) (NOT VERY DRY)) (THEN (TRY PINCH-2-PARALLEL (S1 S2 ? ? ? ?))))"
                (supergrip-data:form-text
@@ -57,7 +58,8 @@
 (test a-refused-declaration-is-told-of-once
   (loop for (form . text)
           in '(((input dry 3) . "INPUT DRY: (INPUT DRY 3): a sentence is made of words, and may end in one list of surfaces")
-               ((input fragile (z1)) . "INPUT FRAGILE: a declaration holds for all surfaces: (INPUT FRAGILE (S1))")
+               ((input fragile (z1))
+                . "INPUT FRAGILE: a declaration holds for all surfaces: (INPUT FRAGILE (S1))")
                ((input not dry) . "INPUT NOT DRY: a negation can't be declared: what the input does not say is false"))
         do (is (equal (list text "The knowledge in force stays as it was.")
                       (lines-of (error-text (supergrip:edit form)))))))
@@ -69,7 +71,8 @@
                   (handler-case (supergrip:forget 'pinch-3-corner)
                     (supergrip:knowledge-error (condition) (princ-to-string condition)))))
       (is (eq before supergrip:*knowledge*) "rules try it")
-      (handler-bind ((supergrip:knowledge-warning #'muffle-warning)) ; nothing tries the corner grasp
+      (handler-bind ((supergrip:knowledge-warning
+                      #'muffle-warning)) ; nothing tries the corner grasp
         (mapc #'supergrip:forget '(grip4 "GRIP5" grip10)))
       (supergrip:forget 'pinch-3-corner)
       (is (= (- rules 3) (rule-total)))
@@ -160,27 +163,40 @@ The knowledge in force stays as it was."
   (let ((before supergrip:*knowledge*))
     (loop for (typed report)
             in '(("(setq finger-length '(3))" "GRIPPER, FINGER-LENGTH: a number is wanted, not (3)")
-                 ("(setq finger-length -3)" "GRIPPER: FINGER-LENGTH is -3; a dimension is a number from 0")
+                 ("(setq finger-length -3)"
+                  "GRIPPER: FINGER-LENGTH is -3; a dimension is a number from 0")
                  ("(setq finger-lenght 3)" "FINGER-LENGHT is not a dimension of the gripper (did you mean FINGER-LENGTH?); (cl:setq finger-lenght 3) sets a variable")
                  ("(setq finger-lenght (/ 6 2))" "FINGER-LENGHT is not a dimension")
                  ("(setq x 1 finger-lenght 3)" "FINGER-LENGHT is not a dimension")
-                 ("(setq pinch-2-parallel 5)" "GRASP PINCH-2-PARALLEL: a list '(USED-SURFACES (N1 N2 A2) ...) is wanted, not 5")
-                 ("(setq pinch-2-parallel '(a b))" "PINCH-2-PARALLEL is not a grasp: its list has none of the keys")
+                 ("(setq pinch-2-parallel 5)"
+                  "GRASP PINCH-2-PARALLEL: a list '(USED-SURFACES (N1 N2 A2) ...) is wanted, not 5")
+                 ("(setq pinch-2-parallel '(a b))"
+                  "PINCH-2-PARALLEL is not a grasp: its list has none of the keys")
                  ("(setq pinch-2-parallel nil)" "GRASP PINCH-2-PARALLEL: a list '(USED-SURFACES (N1 N2 A2) ...) is wanted, not ()")
                  ("(setq gripper 5)" "GRIPPER: a list '(FINGER-LENGTH 3.2 ...) is wanted, not 5")
                  ("(setq gripper '(a . b))" "GRIPPER: dotted pairs are not read: (A . B)")
-                 ("(setq lateral '(((used-surfaces n1) (conditions t))))" "LATERAL is not a grasp: its list has none of the keys")
+                 ("(setq lateral '(((used-surfaces n1) (conditions t))))"
+                  "LATERAL is not a grasp: its list has none of the keys")
                  ("(setq gripper '(finger-length))" "GRIPPER: FINGER-LENGTH has no number after it")
-                 ("(setq griper '(finger-length 3 finger-dist 6))" "GRIPER is not a grasp (did you mean GRIPPER?)")
-                 ("(setq griper '((finger-length 3) (finger-dist 6)))" "GRIPER is not a grasp (did you mean GRIPPER?)")
-                 ("(setq lateral '(conditions (t) twist (1 1 1 1 1 1)))" "GRASP LATERAL: USED-SURFACES is missing")
-                 ("(setq lateral '((conditions t) (twist 1 1 1 1 1 1)))" "GRASP LATERAL: USED-SURFACES is missing")
+                 ("(setq griper '(finger-length 3 finger-dist 6))"
+                  "GRIPER is not a grasp (did you mean GRIPPER?)")
+                 ("(setq griper '((finger-length 3) (finger-dist 6)))"
+                  "GRIPER is not a grasp (did you mean GRIPPER?)")
+                 ("(setq lateral '(conditions (t) twist (1 1 1 1 1 1)))"
+                  "GRASP LATERAL: USED-SURFACES is missing")
+                 ("(setq lateral '((conditions t) (twist 1 1 1 1 1 1)))"
+                  "GRASP LATERAL: USED-SURFACES is missing")
                  ("(setq lateral '((used-surfaces n1)))" "GRASP LATERAL: CONDITIONS is missing")
-                 ("(setq lateral (list 'used-surfaces '(n1 n2) 'offset 0))" "GRASP LATERAL: CONDITIONS is missing")
-                 ("(setq lateral `(used-surfaces (,'n1 n2)))" "GRASP LATERAL: CONDITIONS is missing")
-                 ("(setq x 1 lateral '(used-surfaces (n1 n2)))" "GRASP LATERAL: CONDITIONS is missing")
-                 ("(setq lateral ((used-surfaces (n1 n2)) (offset 0)))" "the quote is missing: write (setq lateral '(...))")
-                 ("(setq lateral (conditions (t) offset 0))" "the quote is missing: write (setq lateral '(...))"))
+                 ("(setq lateral (list 'used-surfaces '(n1 n2) 'offset 0))"
+                  "GRASP LATERAL: CONDITIONS is missing")
+                 ("(setq lateral `(used-surfaces (,'n1 n2)))"
+                  "GRASP LATERAL: CONDITIONS is missing")
+                 ("(setq x 1 lateral '(used-surfaces (n1 n2)))"
+                  "GRASP LATERAL: CONDITIONS is missing")
+                 ("(setq lateral ((used-surfaces (n1 n2)) (offset 0)))"
+                  "the quote is missing: write (setq lateral '(...))")
+                 ("(setq lateral (conditions (t) offset 0))"
+                  "the quote is missing: write (setq lateral '(...))"))
           do (let ((said (error-text (eval-in-user typed))))
                (is (eql 0 (search report said)) "~a~%gave ~a" typed said)))
     (is (eq before supergrip:*knowledge*))
@@ -240,7 +256,7 @@ The knowledge in force stays as it was."
       (supergrip:edit '(rule grip9 (if (parallel (s1 s2)) (large (s1 s2)))
                         (then (try pinch-3-parallel (s1 s2 ? ? ? ?)))))
       (is (equal '("12 x 2 x 2 cm: PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1) Q=0.770, was PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1) Q=0.860"
-                   "1 of 2 boxes differ: 0 in verdict, 1 in grasp, 0 in quality.")
+                   "1 of 2 boxes differs: 0 in verdict, 1 in grasp, 0 in quality.")
                  (printed (supergrip:compare-knowledge old supergrip:*knowledge* boxes)))))))
 
 (test comparing-takes-knowledge-and-boxes

@@ -70,7 +70,8 @@
   (let ((state (sb-ext:seed-random-state 3)) (closed 0))
     (loop repeat 40
           do (let* ((contacts (loop repeat 4
-                                    collect (let ((axis (random 3 state)) (sign (if (zerop (random 2 state)) 1 -1)))
+                                    collect (let ((axis (random 3 state))
+                                                  (sign (if (zerop (random 2 state)) 1 -1)))
                                               (list (loop for k below 3
                                                           collect (if (= k axis)
                                                                       (* sign 2)

@@ -23,17 +23,21 @@
 (test other-mistakes-in-a-box-are-named
   (loop for (form report) in
         `((12 "BOX: 12 is not a box description: it is a list such as ((SIZE 12 2 2) (WEIGHT 0.2) ...)")
-          (((size 12 2 2)) "BOX: WEIGHT is missing; it takes one number, 0 or more, in finger forces: (WEIGHT 0.2)")
+          (((size 12 2 2))
+           "BOX: WEIGHT is missing; it takes one number, 0 or more, in finger forces: (WEIGHT 0.2)")
           (,(cons '(:size 1 1 1) *good-box*) "BOX: SIZE is given twice")
           (,(cons '(:frction 1) *good-box*) "BOX: unknown key FRCTION")
           (,(cons '(:wieght 1) *good-box*) "BOX: unknown key WIEGHT (did you mean WEIGHT?)")
           (,(cons :size *good-box*) "BOX: SIZE is not a part of a box description: its parts are lists such as (SIZE 12 2 2)")
-          (,(changed-box :constrained :z3) "BOX: Z3 is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
-          (,(changed-box :constrained '(:z2)) "BOX: (Z2) is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
+          (,(changed-box :constrained :z3)
+           "BOX: Z3 is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
+          (,(changed-box :constrained '(:z2))
+           "BOX: (Z2) is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2")
           (,(changed-box :constrained :z2 :q :x9) "BOX: Q is not a surface of a box")
           (,(changed-box :constrained :z2 :z2) "BOX: Z2 is constrained twice")
           (,(remove :constrained *good-box* :key #'first) "BOX: CONSTRAINED is missing")
-          (,(cons '(:name pencil) *good-box*) "BOX: (NAME PENCIL) is not valid: NAME takes one string: (NAME \"pencil\")")
+          (,(cons '(:name pencil) *good-box*)
+           "BOX: (NAME PENCIL) is not valid: NAME takes one string: (NAME \"pencil\")")
           (((size 1 1 1) (weight 0) (u 0) (v 0) (constrained) (force-needed (0 0 0 0 0 0))
             (velocity-needed (0 0 0 0 0 0)))
            "BOX: the task needs nothing: FORCE-NEEDED and VELOCITY-NEEDED are all 0"))
@@ -62,7 +66,8 @@
                         (list 'setq 'box (list 'quote *good-box*))
                         (list 'quote *good-box*)
                         '((size 12 2 2) (weight 0.2) (u 0.8) (v 0.2) (constrained x1 z2)
-                          (force-needed (1 0.8 0.8 0.3 1 1)) (velocity-needed (0 0.8 0.8 0 0.8 0.8)))))
+                          (force-needed (1 0.8 0.8 0.3 1 1))
+                          (velocity-needed (0 0.8 0.8 0 0.8 0.8)))))
       (is (equalp box (supergrip:parse-box form)) "~s" form)))
   (dolist (name '(nil :nil))
     (is (null (supergrip:box-name (supergrip:parse-box (cons (list :name name) *good-box*))))))
@@ -112,7 +117,8 @@
 
 (defun spoil-and-mend ()
   (uiop:with-temporary-file (:stream out :pathname rules :keep nil)
-    (format out "(RULE A (IF (SLIPPERY)) (THEN (CANT X)))~%(RULE B (IF (SMALL (s1))) (THEN (FROB)))")
+    (format out "(RULE A (IF (SLIPPERY)) (THEN (CANT X)))~%(RULE B (IF (SMALL (s1))) (THEN ~
+                 (FROB)))")
     :close-stream
     (let ((before supergrip:*knowledge*))
       (handler-case (supergrip:load-knowledge :rules rules)
@@ -124,7 +130,8 @@
       (is (eq before supergrip:*knowledge*)))
     (let ((knowledge (handler-bind ((supergrip:knowledge-error #'continue))
                        (supergrip:load-knowledge :rules rules))))
-      (is (equal '("A") (mapcar #'supergrip-chainer:rule-name (supergrip:knowledge-rules knowledge)))
+      (is (equal '("A")
+                 (mapcar #'supergrip-chainer:rule-name (supergrip:knowledge-rules knowledge)))
           "CONTINUE leaves out what is wrong"))
     (let ((tries 0))
       (is (= 1 (length (supergrip:knowledge-rules
@@ -134,7 +141,8 @@
                                            (incf tries)
                                            (with-open-file (out rules :direction :output
                                                                       :if-exists :supersede)
-                                             (format out "(RULE A (IF (SLIPPERY)) (THEN (CANT X)))"))
+                                             (format out
+                                                     "(RULE A (IF (SLIPPERY)) (THEN (CANT X)))"))
                                            (supergrip:retry))))
                           (supergrip:load-knowledge :rules rules)))))
           "RETRY reads the mended file")
@@ -151,7 +159,8 @@
 
 (test a-relative-path-means-one-file
   (let ((directory (uiop:ensure-directory-pathname
-                    (format nil "~asupergrip-~36r" (uiop:native-namestring (uiop:temporary-directory))
+                    (format nil "~asupergrip-~36r"
+                            (uiop:native-namestring (uiop:temporary-directory))
                             (random (expt 36 8) (make-random-state t))))))
     (ensure-directories-exist (merge-pathnames "k1/" directory))
     (unwind-protect
@@ -186,7 +195,8 @@
   (uiop:with-temporary-file (:stream out :pathname file :external-format :utf-16le)
     (write-string (file-text "rules.lisp") out)
     :close-stream
-    (is (equal (list (format nil "~a: this file is UTF-16; UTF-8 is read, which iconv -f UTF-16 -t UTF-8 makes of it"
+    (is (equal (list (format nil "~a: this file is UTF-16, but must be UTF-8; iconv -f UTF-16 -t ~
+                                  UTF-8 converts it"
                              (uiop:native-namestring file)))
                (problem-texts (lambda () (supergrip:load-knowledge :rules file)))))))
 
@@ -201,15 +211,18 @@
                   (candidate (first (supergrip:plan-candidates plan))))
              (multiple-value-list (supergrip:candidate-failure candidate plan)))))
     (is (equal '(:conditions "u is 0, must be > 1") (failure :conditions "(u > 1)")))
-    (is (equal '(:conditions "a form of CONDITIONS has no value") (failure :conditions "((/ 1 u) > 1)")))
+    (is (equal '(:conditions "a form of CONDITIONS has no value")
+               (failure :conditions "((/ 1 u) > 1)")))
     (is (equal '(:offset "the fingers can't reach: a root or a quotient of OFFSET has no value")
                (failure :offset "(LIST 0 0 0 0 0 (SQRT (- u 1)))")))
     (is (equal '(:offset "OFFSET's entries for two opposite faces are not opposite numbers")
                (failure :offset "(LIST 0 0 0 0 1 1)")))
     (is (equal '(:fingers "a finger on Z2 would stand at 3 cm along O, beyond the edge at 2")
                (failure :contacts "((N1 3 0) (N2 0 0))")))
-    (is (equal '(:open "open: the contacts don't close on this shape; needs u > 0, has 0") (failure)))
-    (is (equal '(:open "a form of WRENCH has no value") (failure :wrench "(1 1 1 1 1 (EXPT u -1))")))
+    (is (equal '(:open "open: the contacts don't close on this shape; needs u > 0, has 0")
+               (failure)))
+    (is (equal '(:open "a form of WRENCH has no value")
+               (failure :wrench "(1 1 1 1 1 (EXPT u -1))")))
     (is (equal '(:lifting "it can't hold the weight: the load along Z is 0.1, the grasp bears 0.01")
                (failure :wrench "(0.01 0.01 0.01 0.01 0.01 0.01)")))))
 
@@ -244,9 +257,9 @@
                                       (grasp-text :wrench wrench)))))
     (is (null (reports 10 "((F9 1) 1 1 1 1 1)")))
     ;; The helper that goes too far is named, and nobody who calls it.
-    (is (equal '("grasps.lisp:13: DEFUN F10: more than 8000 steps, with the helpers that it calls put in their places")
+    (is (equal '("grasps.lisp:13: DEFUN F10: more than 8000 steps; each call of a helper counts as all steps of the helper")
                (reports 20 "((F19 1) 1 1 1 1 1)")))
-    (is (equal '("grasps.lisp:16: GRASP G, WRENCH: more than 8000 steps, with the helpers that it calls put in their places")
+    (is (equal '("grasps.lisp:16: GRASP G, WRENCH: more than 8000 steps; each call of a helper counts as all steps of the helper")
                (reports 10 "((F9 1) (F9 2) (F9 3) 1 1 1)"))))
   (is (equal '("grasps.lisp:5: GRASP G2, WRENCH: more than 16000 different numbers in one file")
              (knowledge-reports

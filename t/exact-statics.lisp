@@ -363,25 +363,25 @@ MAKE-BOX makes them of STATE, with random needs."
         with need = '(1 1 1 1 1 1)
         for (function arguments text)
           in `((supergrip:exact-radius (,two 0.5d0 0.2d0 (0 0 0 0 0 0))
-                "the task needs no force and no torque, so it has no radius; whether the ~
-                 contacts hold the weight, (holds-p contacts u v gravity) says")
+                "the task needs no force and no torque, so it has no radius; ~
+                 (holds-p contacts u v gravity) says whether the contacts hold the weight")
                (supergrip:exact-radius (() 0.5d0 0.2d0 ,need)
-                "contacts are (); they are a list of (position inward-normal), as ~
+                "contacts are (), but must be a list of (position inward-normal), as ~
                  (((0 1 0) (0 -1 0)) ((0 -1 0) (0 1 0))), at most 1000")
                (supergrip:exact-radius ((((0 1 0) (0 -1 0)) ((0 -1 0) (0 0 0))) 0.5d0 0.2d0 ,need)
                 "contact 2 is ((0 -1 0) (0 0 0)); a contact is (position inward-normal), three ~
                  numbers each, as ((0 1 0) (0 -1 0))")
-               (supergrip:exact-radius (,two -1 0.2d0 ,need) "u is -1; it is a number from 0")
-               (supergrip:holds-p (,two 0.5d0 "v" ,need) "v is \"v\"; it is a number from 0")
+               (supergrip:exact-radius (,two -1 0.2d0 ,need) "u is -1, but must be a number from 0")
+               (supergrip:holds-p (,two 0.5d0 "v" ,need) "v is \"v\", but must be a number from 0")
                (supergrip:exact-radius (,two 0.5d0 0.2d0 (1 1 1))
-                "need is (1 1 1); it is a list of six numbers: forces along X Y Z, torques ~
+                "need is (1 1 1), but must be a list of six numbers: forces along X Y Z, torques ~
                  about X Y Z")
                (supergrip:exact-radius (,two 0.5d0 0.2d0 ,need :gap 1)
-                "gap is 1; it is a number from 0 to below 1")
+                "gap is 1, but must be a number not below 0 and below 1")
                (supergrip:exact-radius (,two 0.5d0 0.2d0 ,need :budget -1)
-                "budget is -1; it is a number of boxes, such as 100000")
+                "budget is -1, but must be a number of boxes, such as 100000")
                (supergrip:sure-radius (,need ,need :offset 3)
-                "offset is 3; it is a list of three numbers, along X Y Z"))
+                "offset is 3, but must be a list of three numbers, along X Y Z"))
         do (is (string= (format nil text) (refusal-of function arguments)))))
 
 (test needs-may-be-as-small-as-they-like

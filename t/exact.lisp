@@ -1,4 +1,5 @@
-;;;; exact.lisp -- exact mode: what the contacts can really do decides, and the choice is the best by it.
+;;;; exact.lisp -- exact mode: what the contacts can really do decides, and the choice is the best
+;;;; by it.
 
 (in-package :supergrip-test)
 (define-suite exact
@@ -50,7 +51,8 @@
       (is (< (count :open (outcomes :exact)) (count :open (outcomes :paper)))))))
 
 (test a-candidate-is-asked-about-in-the-plan-that-is-given
-  "What a plan has certified is said again; in a plan for another box the same candidate is another."
+  "What a plan has certified is said again; in a plan for another box the same candidate is
+another."
   (let* ((plan (exact-plan (paper-box))) (best (supergrip:plan-best plan))
          (other (supergrip:plan (changed-box :u 0.5d0))))
     (flet ((radius (plan)
@@ -267,7 +269,8 @@ certified alone and looked at from STARTS; how many there are; and the last valu
 ;;; Explanations: each figure is computed in another way
 
 (defun powers-at (case motion)
-  "Return what pressing, friction, torques and the weight of CASE do at most in MOTION, four numbers."
+  "Return what pressing, friction, torques and the weight of CASE do at most in MOTION, four
+numbers."
   (destructuring-bind (contacts u v need gravity) case
     (declare (ignore need))
     (loop with turn = (nthcdr 3 motion)
@@ -286,16 +289,17 @@ certified alone and looked at from STARTS; how many there are; and the last valu
          (lines (printed (supergrip:explain-best plan))))
     (multiple-value-bind (upper lower worst) (exact-radius-of case)
       (is (<= lower 0.880d0 upper 0.8885d0)) ; by cone programming, and the gap
-      (is (equal (list (format nil "Force is limited where the box is pushed along -Y and turned about ~
-                                    +Y: radius ~,3f, proved, and at most ~,3f." lower upper)
-                       (format nil "  There pressing gives ~,3f, friction ~,3f, the fingertips' torque ~
-                                    ~,3f, the weight ~,3f; the task needs 1."
+      (is (equal (list (format nil "Force is limited where the box is pushed along -Y and turned ~
+                                    about +Y: radius ~,3f, proved, and at most ~,3f." lower upper)
+                       (format nil "  There pressing gives ~,3f, friction ~,3f, the fingertips' ~
+                                    torque ~,3f, the weight ~,3f; the task needs 1."
                                . #1=((first (powers-at case worst)) (second (powers-at case worst))
-                                     (third (powers-at case worst)) (fourth (powers-at case worst)))))
+                                     (third (powers-at case worst))
+                                     (fourth (powers-at case worst)))))
                  (subseq lines 1 3)))
       (is (close-to upper (+ . #1#)))
-      (is (find (format nil "The contacts bear at most ~,4f of the force asked for, which is enough if ~
-                             the needs only say what matters more." upper)
+      (is (find (format nil "The contacts bear at most ~,4f of the force asked for, which is ~
+                             enough if the needs only say what matters more." upper)
                 lines :test #'string=))
       (is (notany (lambda (line) (search "Exactly, " line)) lines)))))
 
@@ -331,7 +335,8 @@ certified alone and looked at from STARTS; how many there are; and the last valu
   (let* ((plan (exact-plan (paper-box)))
          (other (find-if #'supergrip:candidate-bound-p (supergrip:plan-possible plan)))
          (bound (supergrip:candidate-quality other)))
-    (is (equal (format nil "~a (~{~a~^ ~}): its Q is at most ~,3f, at least ~a below ~a (~{~a~^ ~})."
+    (is (equal (format nil "~a (~{~a~^ ~}): its Q is at most ~,3f, at least ~a below ~a (~{~a~^ ~
+                            ~})."
                        (supergrip:candidate-grasp other) (supergrip:candidate-matching other) bound
                        (supergrip::number-text (- (supergrip:plan-quality plan) bound))
                        (supergrip:plan-grasp plan) (supergrip:plan-matching plan))
@@ -402,7 +407,9 @@ certified alone and looked at from STARTS; how many there are; and the last valu
             (is (<= (* 0.99d0 (radius (* 0.985d0 squeeze))) 1d0) "~a" box)))))))
 
 (test an-unknown-index-is-told-of
-  (is (equal "index is EXAKT; it is :PAPER or :EXACT"
+  (is (equal "gamma is 2, but must be a number from 0 (forces alone) to 1 (velocities alone)"
+             (error-text (supergrip:plan (paper-box) :gamma 2))))
+  (is (equal "index is EXAKT, but must be :PAPER or :EXACT"
              (error-text (supergrip:plan (paper-box) :index :exakt)))))
 
 (test exact-plans-do-not-depend-on-float-traps
@@ -414,7 +421,8 @@ certified alone and looked at from STARTS; how many there are; and the last valu
     (is (not (traps-matter-p (lambda () (plan-figures (exact-plan box))))))))
 
 (test extreme-boxes-have-records-by-either-index
-  "Whatever sizes, friction, weight and needs are, a plan has a record, and no number of it is none."
+  "Whatever sizes, friction, weight and needs are, a plan has a record, and no number of it is
+none."
   (let ((state (sb-ext:seed-random-state 3)))
     (flet ((one-of (&rest numbers) (nth (random (length numbers) state) numbers)))
       (dotimes (i 150)

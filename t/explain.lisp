@@ -36,7 +36,8 @@
         '(((paralel (y2 y1)) "(PARALEL (Y2 Y1)) is not a fact that could be known: nothing speaks of PARALEL (did you mean PARALLEL?); known are OPPOSED, SMALL, NARROW, LARGE, CONSTRAINED, SLIPPERY, PARALLEL, OBJECT HAS PARALLEL SURFACES, ADJACENT, OBJECT HAS ADJACENT SURFACES, CORNER, OBJECT HAS FREE CORNERS, WIDE, OBJECT HAS OTHER PARALLEL SURFACES")
           ((not parallel (y2 y1)) "(NOT PARALLEL (Y2 Y1)) is not a fact that could be known: ask about the sentence without NOT or NO")
           (parallel "PARALLEL is not a fact that could be known: a fact is a list, such as (PARALLEL (Y2 Y1)) or (OBJECT HAS FREE CORNERS)")
-          ((parallel 7) "(PARALLEL 7) is not a fact that could be known: 7 is not allowed in a fact")
+          ((parallel 7)
+           "(PARALLEL 7) is not a fact that could be known: 7 is not allowed in a fact")
           ((parallel (y2)) "(PARALLEL (Y2)) is not a fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2")
           ((parallel (y2 y3)) "(PARALLEL (Y2 Y3)) is not a fact that could be known: PARALLEL takes 2 different surfaces of X1 X2 Y1 Y2 Z1 Z2"))
         do (is (equal report (handler-case (supergrip:how form (pencil-plan))
@@ -77,7 +78,8 @@
   (let ((supergrip:*plan* (pencil-plan)))
     (dolist (name '(grip8 grip4 pinch-2-parallel pinch-3-parallel pinch-3-corner))
       (is (equal (printed (supergrip:why-not name)) (printed (supergrip:how name)))))
-    (is (equal '("PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1): it is the best grasp." "Ask (explain-best) why.")
+    (is (equal '("PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1): it is the best grasp."
+                 "Ask (explain-best) why.")
                (printed (supergrip:how 'pinch-3-parallel))))
     (dolist (fact '((parallel (y2 y1)) (adjacent (z1 y2) (z1 y1))))
       (is (equal (cons "That is so; this is how:" (printed (supergrip:how fact)))
@@ -95,11 +97,13 @@
             in `(("a fact is one list: (how '(PARALLEL (Y2 Y1)))" parallel (y2 y1))
                  ("a fact is one list: (how '(PARALLEL (Y2 Y1)))" parallel y2 y1)
                  ("a fact is one list: (how '(OBJECT HAS CORNERS))" object has "corners")
-                 ("HOW takes a fact and a plan; 3 is too much" (parallel (y2 y1)) ,supergrip:*plan* 3)
+                 ("HOW takes a fact and a plan; 3 is too much" (parallel (y2 y1)) ,supergrip:*plan*
+                  3)
                  ("GRIP8 is not a plan: FORWARD-CHAIN, PLAN and TRY-GRASP return plans; HOW, WHY-NOT and REQUIRES answer about a name or a fact"
                   (parallel (y2 y1)) grip8))
           do (is (equal text (error-text (apply #'supergrip:how arguments)))))
-    (is (search "answer about a name or a fact" (error-text (supergrip:explain-best 'pinch-3-corner))))))
+    (is (search "answer about a name or a fact"
+                (error-text (supergrip:explain-best 'pinch-3-corner))))))
 
 (test why-not-wants-its-faces-in-a-list
   (let ((supergrip:*plan* (pencil-plan)))
@@ -312,8 +316,10 @@
 
 (test figures-have-the-digits-that-they-need
   (loop for (number text) in '((999999999.03d0 "1e+9") (0.0625d0 "0.0625") (0.00123456d0 "0.001235")
-                               (9999.96d0 "10000") (1234567.8d0 "1234568") (0 "0") (-0.07071d0 "-0.07071")
-                               (1d-12 "1e-12") (1d300 "1e+300") (0.99996d0 "1") (1.2346d-5 "1.235e-5"))
+                               (9999.96d0 "10000") (1234567.8d0 "1234568") (0 "0")
+                               (-0.07071d0 "-0.07071")
+                               (1d-12 "1e-12") (1d300 "1e+300") (0.99996d0 "1")
+                               (1.2346d-5 "1.235e-5"))
         do (is (equal text (supergrip::number-text number))))
   (loop for (numbers . texts) in '(((0.6d0 0.59999d0) "0.6" "0.59999") ((12 12) "12" "12")
                                    ((0.70710678118d0 0.7071067811865476d0)
@@ -454,7 +460,8 @@
       (is (find "RULE GRIP0 did not fire: clause 2, (SMALL (S2 S3)), fails for every binding of the clauses before it."
                 (answer '(w (y1))) :test #'string=)
           "the second action might have said so")
-      (is (equal '("(LATE) is not known." "RULE GRIP11 did fire, and ended the run before, KEEP BEST.")
+      (is (equal '("(LATE) is not known."
+                   "RULE GRIP11 did fire, and ended the run before, KEEP BEST.")
                  (answer '(late)))))
     (is (equal '("(PARALLEL (X1 X2)) is not known."
                  "RULE SURFACES1 did fire, but not for this: clause 3, (NOT CONSTRAINED (S2)), fails for every binding of the clauses before it.")
@@ -468,9 +475,11 @@
     (handler-bind ((supergrip:knowledge-warning #'muffle-warning))
       (loop for i from 1 to 40
             do (supergrip:edit `(rule ,(make-symbol (format nil "A~d" i))
-                                      (if (,(if (= i 1) 'opposed (make-symbol (format nil "P~d" (1- i))))
+                                      (if (,(if (= i 1) 'opposed
+                                                (make-symbol (format nil "P~d" (1- i))))
                                            (s1 s2))
-                                          (,(if (= i 1) 'opposed (make-symbol (format nil "P~d" (1- i))))
+                                          (,(if (= i 1) 'opposed
+                                                (make-symbol (format nil "P~d" (1- i))))
                                            (s3 s4)))
                                       (then (remember ,(make-symbol (format nil "P~d" i)) (s1 s2))))
                                :before 'grip1)))

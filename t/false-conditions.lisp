@@ -1,7 +1,7 @@
 ;;;; false-conditions.lisp -- the nearest miss: what is false of it, how far off, in words.
 
 (in-package :supergrip-test)
-(define-suite misses "The nearest miss: what is false of it, how far off, in words.")
+(define-suite false-conditions "The nearest miss: what is false of it, how far off, in words.")
 
 (defun reason-of (size u constrained &key (weight 0.1d0))
   "Return the reason that no grasp is possible, from the nearest miss on."
@@ -47,7 +47,8 @@
   (loop for (conditions . words) in
         '((((dist '(n1 n2)) > dist-pinch) . "Z2 and Z1 are 2 cm apart, must be > 12 (DIST-PINCH)")
           ((> 1 (dist '(n1 n2))) . "Z2 and Z1 are 2 cm apart, must be < 1")
-          ((finger-width > (dist '(n2 n1))) . "Z2 and Z1 are 2 cm apart, must be < 0.3 (FINGER-WIDTH)")
+          ((finger-width > (dist '(n2 n1)))
+           . "Z2 and Z1 are 2 cm apart, must be < 0.3 (FINGER-WIDTH)")
           ((not ((dist '(n1 n2)) <= dist-pinch))
            . "Z2 and Z1 are 2 cm apart, must be > 12 (DIST-PINCH)")
           ((not (or (constrained n1) (u > 0.5)))
@@ -55,7 +56,8 @@
           ((and (not (constrained n1)) (constrained n2) (v = 0.2))
            . "Z2 is constrained; Z1 is not constrained")
           ((or (u > 1) (v > 1)) . "u is 0.8, must be > 1, and v is 0.2, must be > 1")
-          (((sqrt (+ (* (/ (dist '(n1 n2)) 2) (/ (dist '(n1 n2)) 2)) (expt (* 1/2 (dist '(o1 o2))) 2)))
+          (((sqrt
+             (+ (* (/ (dist '(n1 n2)) 2) (/ (dist '(n1 n2)) 2)) (expt (* 1/2 (dist '(o1 o2))) 2)))
             > dist-pinch)
            . "the finger places on Z2 or Z1 and X2 are 6.083 cm apart, must be > 12 (DIST-PINCH)")
           (((width (dist '(n1 n2)) u) > width-hand)
@@ -73,7 +75,8 @@
       (supergrip::with-workspace (workspace plan)
         (dolist (candidate (supergrip:plan-candidates plan))
           (let ((faults (supergrip::candidate-faults candidate workspace)))
-            (unless (eq (null faults) (not (eq :conditions (supergrip:candidate-outcome candidate))))
+            (unless (eq (null faults)
+                        (not (eq :conditions (supergrip:candidate-outcome candidate))))
               (return-from conditions-fault (princ-to-string candidate)))
             (when (and faults
                        (search "EXPT" (nth-value 1 (supergrip:candidate-failure candidate plan))))

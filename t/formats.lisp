@@ -136,6 +136,10 @@ share."
                       (supergrip::palm-inside candidate plan)))))
     (is (search " inside the box, up to " (supergrip::palms-inside-text
                                            (supergrip:plan-possible plan) plan)))
+    (let ((inside (find-if (lambda (candidate) (plusp (supergrip::palm-inside candidate plan)))
+                           (supergrip:plan-possible plan))))
+      (is (eql 0 (search "1 of 1 palm lies inside the box, up to "
+                         (supergrip::palms-inside-text (list inside) plan)))))
     (is (null (supergrip::palms-inside-text (supergrip:plan-possible pencil) pencil)))
     (is (null (supergrip::palms-inside-text (supergrip:plan-possible (supergrip:plan tall))
                                             (supergrip:plan tall)))

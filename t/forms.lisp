@@ -48,12 +48,13 @@
   (signals error (macroexpand-1 '(supergrip::node-case (:six node) (:list () 1) (:let () 2))))
   (signals error (macroexpand-1 '(supergrip::node-case (:six node)
                                   (:list () 1) (:let () 2) (:cond () 3) (:not () 4))))
-  (finishes (macroexpand-1 '(supergrip::node-case (:six node) ((:list :let :cond :computed) () 1)))))
+  (finishes (macroexpand-1
+             '(supergrip::node-case (:six node) ((:list :let :cond :computed) () 1)))))
 
 (test a-negative-twist-is-found-in-every-clause
   (loop for twist in '("(COND ((u > 1) (LIST 1 1 1 1 1 -1)) (T (LIST 1 1 1 1 1 1)))"
                        "(LET ((x 1)) (IF (u > 1) (1 1 1 1 1 x) (1 1 1 1 1 (- x 2))))")
-        do (is (equal '("grasps.lisp:7: GRASP G, TWIST: an entry below 0: mobility is 0 or more")
+        do (is (equal '("grasps.lisp:7: GRASP G, TWIST: an entry is below 0, but a mobility must be 0 or more")
                       (grasp-reports :twist twist)))))
 
 ;;; Float traps

@@ -4,15 +4,17 @@
     pip install numpy
     python3 t/frames.py [COUNT [SEED [COMMAND...]]]
 
-COUNT random boxes, 1,000 unless said otherwise, with a pose each and a centre of mass in most, are given
-to COMMAND, by default sbcl --script examples/batch.lisp, in exact mode.  Every record must say:
+COUNT random boxes, 1,000 unless said otherwise, with a pose each and a centre of mass in most, are
+given to COMMAND, by default sbcl --script examples/batch.lisp, in exact mode.  Every record must
+say:
 - world = pose o hand: position, orientation, closing direction; and the opening is the same;
 - the hand's axes are right-handed, and its quaternion is a unit one with w >= 0;
 - z is minus the normal of the face that the palm of this grasp is over;
-- where fingers oppose, the middles of the contacts on both faces lie on the closing line, as far apart
-  as the opening, and the contacts are as far from the hand's frame in the world as in the box;
-- in no motion tried do the contacts and gravity, which follows from the pose, do less than the certified
-  radius says.  The least ratio found, to the upper value, is printed.
+- where fingers oppose, the middles of the contacts on both faces lie on the closing line, as far
+  apart as the opening, and the contacts are as far from the hand's frame in the world as in the
+  box;
+- in no motion tried do the contacts and gravity, which follows from the pose, do less than the
+  certified radius says.  The least ratio found, to the upper value, is printed.
 """
 import json
 import subprocess
@@ -46,7 +48,8 @@ def random_box(random, number):
     needs = random.uniform(0, 1, 6) * (random.random(6) < .7)
     box = {"name": str(number), "size": size.tolist(), "weight": random.uniform(0, .4),
            "u": random.uniform(.3, 1.4), "v": random.uniform(0, .4),
-           "constrained": [face for face in ("X1", "X2", "Y1", "Y2", "Z1", "Z2") if random.random() < .2],
+           "constrained": [face for face in ("X1", "X2", "Y1", "Y2", "Z1", "Z2")
+                            if random.random() < .2],
            "force_needed": needs.tolist(), "velocity_needed": [0.5, 0.5, 0.5, 0.2, 0.2, 0.2],
            "pose": {"orientation": (orientation / np.linalg.norm(orientation)).tolist(),
                     "position": random.uniform(-99, 99, 3).tolist()}}
@@ -56,7 +59,8 @@ def random_box(random, number):
 
 
 def least_ratio(box, contacts, random):
-    """The least (contacts' power + gravity's) / |needs * motion| of many motions, walks included."""
+    """The least (contacts' power + gravity's) / |needs * motion| of many motions, walks
+    included."""
     force = box["weight"] * matrix(box["pose"]["orientation"]).T @ np.array([0, 0, -1])
     gravity = np.append(force, np.cross(box.get("centre", [0, 0, 0]), force))
     need = np.array(box["force_needed"])
@@ -67,7 +71,8 @@ def least_ratio(box, contacts, random):
             velocity = motions[:, :3] + np.cross(motions[:, 3:], place)
             along = velocity @ inward
             slip = np.linalg.norm(velocity - np.outer(along, inward), axis=1)
-            total += np.maximum(0, along + box["u"] * slip + box["v"] * np.abs(motions[:, 3:] @ inward))
+            turning = np.abs(motions[:, 3:] @ inward)
+            total += np.maximum(0, along + box["u"] * slip + box["v"] * turning)
         return total / np.maximum(1e-12, np.linalg.norm(need * motions, axis=1))
 
     motions = random.normal(size=(4000, 6)) / np.array([1, 1, 1, 3, 3, 3])
@@ -80,10 +85,12 @@ def least_ratio(box, contacts, random):
 
 
 def check(box, record, random):
-    """Raise an AssertionError unless RECORD is right for BOX; return the least ratio to the upper value."""
+    """Raise an AssertionError unless RECORD is right for BOX; return the least ratio to the upper
+    value."""
     hand, world, pose = record["hand"], record["world"], box["pose"]
     turn, h = matrix(pose["orientation"]), matrix(hand["orientation"])
-    assert np.allclose(world["position"], pose["position"] + turn @ hand["position"], 0, 1e-7), "position"
+    place = pose["position"] + turn @ hand["position"]
+    assert np.allclose(world["position"], place, 0, 1e-7), "position"
     assert np.allclose(matrix(world["orientation"]), turn @ h, 0, NEAR), "orientation"
     assert np.allclose(world["closing"], turn @ hand["closing"], 0, NEAR), "closing"
     assert world["opening"] == hand["opening"], "opening"

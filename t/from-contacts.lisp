@@ -29,9 +29,9 @@
           ("(X 4)" "REACH: X is not an axis: REACH is along N, O or A")
           ("(A2 4)" "REACH: A2 is not an axis: REACH is along N, O or A")
           ("(A 4 A 5)" "REACH: the reach along A is given twice")
-          ("(A 0)" "REACH: the reach along A is 0; it is a length above 0")
-          ("(N 4)" "REACH: the reach along N: both N1 and N2 are used, so the hand comes over neither; leave N out")
-          ("(O 4)" "REACH: the reach along O: neither O1 nor O2 is used, so the hand comes over neither; leave O out")
+          ("(A 0)" "REACH: the reach along A is 0, but must be above 0")
+          ("(N 4)" "REACH: the hand does not come over N1 or N2, since both are used; leave the reach along N out")
+          ("(O 4)" "REACH: the hand does not come over O1 or O2, since neither is used; leave the reach along O out")
           ("(A FINGER-LENGHT)" "REACH: unknown name FINGER-LENGHT (did you mean FINGER-LENGTH?); known are U, V, the gripper's dimensions, a helper's parameters and what LET* binds")
           ("(A 4) OFFSET (0 0 0 0 0 0)" ": REACH stands in place of OFFSET; give one of them"))
         do (is (equal (loop for report in reports
@@ -39,7 +39,7 @@
                                             (eql #\: (char report 0)) report))
                       (reach-reports :palm (format nil "A2~% REACH ~a" reach)))
                "~a" reach))
-  (is (equal '("grasps.lisp:7: GRASP G, REACH: the reach along A: FROM-FINGERS is that of fingers on two opposite faces beside it; write a length")
+  (is (equal '("grasps.lisp:7: GRASP G, REACH: FROM-FINGERS along A needs fingers on two opposite faces of one other axis; write a length instead")
              (reach-reports :used-surfaces "(N1 O1 A2)" :contacts "((N1 0 0) (O1 0 0))"
                             :palm (format nil "A2~% REACH (A FROM-FINGERS)")))))
 
@@ -68,13 +68,15 @@
   (loop repeat 3 collect (random-between 0.6d0 20d0 state)))
 
 (test offsets-are-those-of-the-shipped-grasps
-  (let ((state (sb-ext:seed-random-state 5)) (shipped (supergrip::knowledge-graspbase supergrip:*knowledge*))
+  (let ((state (sb-ext:seed-random-state 5))
+        (shipped (supergrip::knowledge-graspbase supergrip:*knowledge*))
         (derived (supergrip::knowledge-graspbase (further-work))))
     (dolist (grasp (supergrip:knowledge-grasps supergrip:*knowledge*))
       (let ((other (supergrip::find-grasp derived (supergrip:grasp-name grasp))))
         (is (loop repeat 300
                   for size = (random-sizes state)
-                  always (equalp (program-values (supergrip::grasp-offset grasp) shipped size 0.5d0 0.2d0)
+                  always (equalp (program-values (supergrip::grasp-offset grasp) shipped size 0.5d0
+                                                 0.2d0)
                                  (program-values (supergrip::grasp-offset other) derived size
                                                  0.5d0 0.2d0)))
             "~a" grasp)))))
@@ -83,7 +85,8 @@
   (nth axis (rest (assoc name *exact* :test #'string=))))
 
 (test entries-agree-with-the-shipped-ones
-  (let ((state (sb-ext:seed-random-state 11)) (shipped (supergrip::knowledge-graspbase supergrip:*knowledge*))
+  (let ((state (sb-ext:seed-random-state 11))
+        (shipped (supergrip::knowledge-graspbase supergrip:*knowledge*))
         (derived (supergrip::knowledge-graspbase (further-work))) (compared 0))
     (dolist (grasp (supergrip:knowledge-grasps supergrip:*knowledge*))
       (let* ((name (supergrip:grasp-name grasp)) (other (supergrip::find-grasp derived name)))
@@ -100,7 +103,8 @@
                          do (is (if (exact-p name axis)
                                     (< (abs (- a b)) (* 1d-6 a))
                                     (<= a (* b (+ 1 1d-9))))
-                                "~a, ~a, u ~a, v ~a: entry ~d: ~a, shipped ~a" name size u v axis b a)))))
+                                "~a, ~a, u ~a, v ~a: entry ~d: ~a, shipped ~a" name size u v axis b
+                                a)))))
     (is (> compared 30))))
 
 (test the-pencil-keeps-its-winner
@@ -172,7 +176,8 @@
 
 (defun example-box (name)
   "Return the box that the example NAME sets."
-  (let ((text (file-text (format nil "examples/~a.lisp" name))) (*package* (find-package :supergrip-user))
+  (let ((text (file-text (format nil "examples/~a.lisp" name)))
+        (*package* (find-package :supergrip-user))
         (*read-default-float-format* 'double-float))
     (second (third (read-from-string text t nil :start (search "(setq box" text))))))
 
@@ -192,6 +197,7 @@
           do (loop repeat 15
                    do (let* ((box (supergrip:parse-box (funcall maker state)))
                              (before (supergrip:plan-quality (supergrip:plan box :knowledge seven)))
-                             (after (supergrip:plan-quality (supergrip:plan box :knowledge further))))
+                             (after (supergrip:plan-quality (supergrip:plan box
+                                                                            :knowledge further))))
                         (is-true (or (null before) (and after (>= after (- before 1d-9))))
                                  "~a: ~a, was ~a" box after before))))))

@@ -38,7 +38,8 @@
                   collect (format nil format face))))
 
 (defun name-text ()
-  (pick '("pencil" "" "a b" "caf\\u00e9" "\\ud83d\\ude00" "\\ud800" "x\\\\y" "a;b" "(" "))" "{" "]")))
+  (pick '("pencil" "" "a b" "caf\\u00e9" "\\ud83d\\ude00" "\\ud800" "x\\\\y" "a;b" "(" "))" "{"
+          "]")))
 
 (defun shuffled (list)
   (sort (mapcar (lambda (item) (cons (random 1d0 *state*) item)) list) #'< :key #'car))
@@ -65,8 +66,10 @@
                             (if (chance 9)
                                 (format nil "(FACTS (WET) (FRAGILE (~a)))" (faces "~a" " "))
                                 "(FACTS)")
-                            (pick '("(UNITS MM N)" "(units in Finger)" "(UNITS M)" "(DATA)" "(DATA 1)"
-                                    "(DATA (a (\"b\")) 1/2)" "(MASS 1)" "(MASS 1e300)" "(UNITS mm kg)"))
+                            (pick '("(UNITS MM N)" "(units in Finger)" "(UNITS M)" "(DATA)"
+                                    "(DATA 1)"
+                                    "(DATA (a (\"b\")) 1/2)" "(MASS 1)" "(MASS 1e300)"
+                                    "(UNITS mm kg)"))
                             (format nil "(POSE (~a) (~a))" (numbers 3 " ")
                                     (if (chance 9) (numbers 4 " ") "0 -0.6 0 0.8"))
                             (format nil "(CENTRE ~a)" (if (chance 9) (numbers 3 " ") "0 0 0"))
@@ -91,7 +94,8 @@
                                         (faces "\"~a\"" ", "))
                                 "\"facts\": []")
                             (pick '("\"units\": [\"mm\", \"N\"]" "\"units\": [\"in\", \"finger\"]"
-                                    "\"units\": \"mm\"" "\"data\": null" "\"data\": [1.50, {\"a\": []}]"
+                                    "\"units\": \"mm\"" "\"data\": null"
+                                    "\"data\": [1.50, {\"a\": []}]"
                                     "\"data\": {}" "\"mass\": 1" "\"mass\": 1e300"))
                             (format nil "\"pose\": {\"position\": [~a], \"orientation\": [~a]}"
                                     (numbers 3 ", ")

@@ -61,7 +61,8 @@
           ("((DIST '(N1 N2)) < 3) OR u = 1" "(((DIST '(N1 N2)) < 3) OR U = 1)"))
         do (dolist (entry '("CONDITIONS ~a" "(CONDITIONS ~a)"))
              (let ((knowledge (text-knowledge
-                               "" (format nil "~a (SETQ G '(USED-SURFACES (N1 A2) ~? OFFSET (0 0 0 0 0 0) WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1)))"
+                               "" (format nil "~a (SETQ G '(USED-SURFACES (N1 A2) ~? OFFSET (0 0 0 ~
+                                               0 0 0) WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1)))"
                                           *small-gripper* entry (list written)))))
                (is (search (format nil "CONDITIONS ~a OFFSET" shown) (grasp-text-of knowledge)))))))
 
@@ -76,9 +77,10 @@
 ;;; The paper's own listing
 
 (defun listing (sum offset)
-  "Return the paper's listing of PINCH-2-PARALLEL in its own shape: its parentheses balanced, SUM where
-it has + in WRENCH, and OFFSET for the list that the scan damaged."
-  (let ((text (part-between (file-text "t/paper-listings.txt") "(SETQ PINCH-2-PARALLEL" "(SETQ BOX")))
+  "Return the paper's listing of PINCH-2-PARALLEL in its own shape: its parentheses balanced, SUM
+where it has + in WRENCH, and OFFSET for the list that the scan damaged."
+  (let ((text
+         (part-between (file-text "t/paper-listings.txt") "(SETQ PINCH-2-PARALLEL" "(SETQ BOX")))
     (loop for (from to) in `(("(DIST '(D1 D2))" "(DIST '(O1 O2))")
                              ("(CONSTRAINED D1)" "(CONSTRAINED O1)")
                              ("(CONSTRAINED D2))))))" "(CONSTRAINED O2))))")
@@ -91,7 +93,8 @@ it has + in WRENCH, and OFFSET for the list that the scan damaged."
   (+ 2 u)
   (+ 2 v)
   (+ u (DIST '(N1 N2)))
-  (+ u " ,(format nil "(WRENCH (1 ~%(~a 2 u)~:*~%(~a 2 u)~:*~%(~a 2 v)~:*~%(~a u (DIST '(N1 N2)))~:*~%(~a u "
+  (+ u " ,(format nil "(WRENCH (1 ~%(~a 2 u)~:*~%(~a 2 u)~:*~%(~a 2 v)~:*~%(~a u (DIST '(N1 ~
+                       N2)))~:*~%(~a u "
                   sum)))
           do (setf text (replace-once text from to)))
     text))
@@ -163,7 +166,7 @@ it has + in WRENCH, and OFFSET for the list that the scan damaged."
           ("(N1 N2 A2)" "X1"
            "grasps.lisp:3: GRASP G, USED-SURFACES: (X1): USED-SURFACES are some of N1 N2 O1 O2 A1 A2")
           ("(TWIST (1 1 1 1 1 1))" "(TWIST 1 1 1 1 1 -1)"
-           "grasps.lisp:5: GRASP G, TWIST: an entry below 0: mobility is 0 or more")
+           "grasps.lisp:5: GRASP G, TWIST: an entry is below 0, but a mobility must be 0 or more")
           ("AND (v > 0) OR (NOT (CONSTRAINED O1))" "AND"
            "grasps.lisp:3: GRASP G, CONDITIONS: ((U > 1) AND): AND stands between two tests")
           ;; The scan's parentheses: the grasp ends too early.
@@ -240,7 +243,8 @@ it has + in WRENCH, and OFFSET for the list that the scan damaged."
            (mapcar #'princ-to-string
                    (nth-value 1 (text-knowledge
                                  "(RULE R (IF (SLIPPERY)) (THEN (TRY G)))"
-                                 (format nil "~a (DEFUN HALF (x) (/ x 2)) (DEFUN TWICE (x) (+ x u))~%~a"
+                                 (format nil "~a (DEFUN HALF (x) (/ x 2)) (DEFUN TWICE (x) (+ x ~
+                                              u))~%~a"
                                          *small-gripper* (grasp-text key text)))))))
     (loop for (sum product) in *sums*
           for reports = (reports :wrench (format nil "(1 ~a 1 1 1 1)" sum))
@@ -248,7 +252,8 @@ it has + in WRENCH, and OFFSET for the list that the scan damaged."
              (when product
                (is (eql 0 (search "grasps.lisp:6: warning: GRASP G, WRENCH: entry 2: (+ "
                                   (first reports))))
-               (is (search (format nil " is taken as it stands, a sum; the product ~a was probably meant"
+               (is (search (format nil " is taken as it stands, a sum; the product ~a was probably ~
+                                        meant"
                                    product)
                            (first reports)))))
     (is (equal '("grasps.lisp:6: warning: GRASP G, WRENCH: (+ 2 U) is taken as it stands, a sum; the product (* 2 U) was probably meant")

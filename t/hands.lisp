@@ -1,7 +1,9 @@
-;;;; hands.lisp -- the hands of examples/hands/: they load, say where each number is from, and grasp.
+;;;; hands.lisp -- the hands of examples/hands/: they load, say where each number is from, and
+;;;; grasp.
 
 (in-package :supergrip-test)
-(define-suite hands "The hands of examples/hands/: they load, say where each number is from, and grasp.")
+(define-suite hands
+  "The hands of examples/hands/: they load, say where each number is from, and grasp.")
 
 (defparameter *hands*
   '((:gripper "paper.lisp") (:gripper "robotiq-3-finger.lisp") (:gripper "barrett-bh8-282.lisp")
@@ -22,7 +24,8 @@
   (is (equal (sort (mapcar #'second *hands*) #'string<)
              (sort (append (mapcar #'file-namestring
                                    (uiop:directory-files (project-file "examples/hands/")))
-                           (loop for folder in (uiop:subdirectories (project-file "examples/hands/"))
+                           (loop for folder
+                                 in (uiop:subdirectories (project-file "examples/hands/"))
                                  collect (first (last (pathname-directory folder)))))
                    #'string<))))
 
@@ -35,7 +38,8 @@
   (dolist (hand *hands*)
     (let ((lines (lines-of (hand-gripper-text hand))))
       (loop for (name) in (supergrip:knowledge-gripper (hand-knowledge hand))
-            for line = (find-if (lambda (line) (eql 0 (search name (string-left-trim " " line)))) lines)
+            for line
+            = (find-if (lambda (line) (eql 0 (search name (string-left-trim " " line)))) lines)
             for source = (subseq line (position #\; line))
             do (is (some (lambda (mark) (search mark source))
                          '("[M]" "[U]" "[D]" "[J]" "chosen:" "derived:" "grasps.lisp"))
@@ -73,7 +77,8 @@
         (is (= 3 (width (hand-plan hand '(20 3 10)))) "~a: across the thin side" hand)
         (is (<= (width (hand-plan hand (list 40 (- opening 0.5d0) 10))) opening) "~a" hand)
         (is (null (supergrip:plan-best (hand-plan hand (list 40 (+ opening 0.5d0) 40)))) "~a" hand)
-        (is (null (supergrip:plan-best (hand-plan hand '(20 10 0.1d0)))) "~a: a card on a table" hand)
+        (is (null (supergrip:plan-best (hand-plan hand '(20 10 0.1d0)))) "~a: a card on a table"
+            hand)
         (is (null (supergrip:plan-best (hand-plan hand '(20 3 10) :constrained '(x1 x2 y1 y2 z2))))
             "~a: in a slot" hand)))))
 

@@ -30,7 +30,8 @@
           ("\"\"" "") ("\"a\\\"b\\\\c\\/\"" "a\"b\\c/")
           ("\"\\u0041\\n\\t\"" ,(format nil "A~c~c" #\Newline #\Tab))
           ("\"\\ud83d\\ude00\"" ,(string (code-char #x1f600)))
-          ("\"\\ud83dx\\ude00\"" ,(coerce (list (code-char #xfffd) #\x (code-char #xfffd)) 'string)))
+          ("\"\\ud83dx\\ude00\""
+           ,(coerce (list (code-char #xfffd) #\x (code-char #xfffd)) 'string)))
         do (is (equalp value (read-json-text text)) "~a gave ~s" text (read-json-text text))))
 
 (test json-refuses-everything-else
@@ -41,10 +42,10 @@
           ("{\"a\":" "1:2: the key \"a\" has no value")
           ("\"a" "1:1: this string is never closed")
           ("[1,]" "1:4: ] is not allowed here")
-          ("[1 2]" "1:4: 2 stands where a comma or ] should")
-          ("{a:1}" "1:2: a stands where a key in double quotes should")
+          ("[1 2]" "1:4: a comma or ] was expected, not 2")
+          ("{a:1}" "1:2: a key in double quotes was expected, not a")
           ("{\"a\" 1}" "1:2: the key \"a\" is not followed by a colon")
-          ("{\"a\":1,}" "1:8: } stands where a key in double quotes should")
+          ("{\"a\":1,}" "1:8: a key in double quotes was expected, not }")
           ("01" "01 is not JSON") ("1." "1. is not JSON") (".5" ".5 is not JSON")
           ("+1" "+1 is not JSON") ("1e" "1e is not JSON") ("NaN" "NaN is not JSON")
           ("-Infinity" "-Infinity is not JSON") ("1/2" "1:1") ("'a'" "1:1: ' is not allowed here")
@@ -64,7 +65,8 @@
     (is (equal "1:2: a name of 65 characters; at most 64 are read"
                (json-failure (format nil "{\"~a\": 1}" (repeat 65 "a")))))
     (dolist (text '("[]," "{}," "\"\"," "1,"))
-      (is (search "longer than 65536 characters" (json-failure (format nil "[~a1]" (repeat 40000 text))))
+      (is (search "longer than 65536 characters"
+                  (json-failure (format nil "[~a1]" (repeat 40000 text))))
           text))
     (is (search "longer than 65536 characters"
                 (json-failure (format nil "\"~a\"" (repeat 70000 "a")))))))

@@ -46,19 +46,22 @@
 (test wrong-command-lines-give-64
   (loop for (report . options) in
         '(("there is no option --fromat (did you mean --format?)" "--fromat" "json")
-          ("--format is trace, sexp, json, isaac, moveit or graspgen, not xml" "--format" "xml")
-          ("--input is sexp or json, not trace" "--input=trace")
+          ("--format must be trace, sexp, json, isaac, moveit or graspgen, not xml" "--format"
+           "xml")
+          ("--input must be sexp or json, not trace" "--input=trace")
           ("--format needs a value" "--format")
           ("--rules needs the name of a file" "--rules" "")
           ("--check takes no value" "--check=yes")
-          ("--gamma is a number from 0, forces alone, to 1, velocities alone, not 1.5" "--gamma" "1.5")
+          ("--gamma must be a number from 0 (forces alone) to 1 (velocities alone), not 1.5"
+           "--gamma" "1.5")
           ("not 0.5 foo" "--gamma" "0.5 foo") ("not 40 41" "--number-limit" "40 41")
           ("not NaN" "--gamma" "NaN") ("not #.(quit)" "--gamma" "#.(quit)")
-          ("--depth-limit is a whole number from 1 to 1000, not 1001" "--depth-limit" "1001")
-          ("--record-limit is a whole number" "--record-limit" "0.5")
-          ("--number-limit is a whole number" "--number-limit" "0")
-          ("--name-limit is a whole number" "--name-limit" "x")
-          ("--all is a whole number from 1 to 1000, not 0" "--all" "0") ("not 1001" "--all" "1001")
+          ("--depth-limit must be a whole number from 1 to 1000, not 1001" "--depth-limit" "1001")
+          ("--record-limit must be a whole number" "--record-limit" "0.5")
+          ("--number-limit must be a whole number" "--number-limit" "0")
+          ("--name-limit must be a whole number" "--name-limit" "x")
+          ("--all must be a whole number from 1 to 1000, not 0" "--all" "0")
+          ("not 1001" "--all" "1001")
           ("not 1.5" "--all" "1.5") ("not many" "--all" "many") ("--all needs a value" "--all")
           ("--all does not go with --format trace" "--all" "2" "--format" "trace")
           ("--refine goes with --format sexp or json" "--refine" "--format" "trace")
@@ -74,14 +77,24 @@
   (loop for (options text report) in
         '((("--depth-limit" "2") "((SIZE (1)))" "nest deeper than 2")
           (("--record-limit" "9") "((SIZE 1 2 3))" "longer than 9 characters")
-          (("--number-limit" "3") "((SIZE 1.000))" "a number of 5 characters; at most 3")
-          (("--name-limit" "3") "((SIZE 1))" "a name of 4 characters; at most 3")
-          (("--depth-limit" "40") "((((((((((((((((((((((((((((((((((((()))))))))))))))))))))))))))))))))))))"
+          (("--record-limit" "1") "((SIZE 1))" "longer than 1 character")
+          (("--number-limit" "3") "((SIZE 1.000))" "a number of 5 characters; at most 3 are read")
+          (("--name-limit" "1") "((SIZE 1))" "a name of 4 characters; at most 1 is read")
+          (("--depth-limit" "40")
+           "((((((((((((((((((((((((((((((((((((()))))))))))))))))))))))))))))))))))))"
            "is not a part of a box")
           (("--number-limit" "60") "((SIZE 1 1 1.00000000000000000000000000000000000000000000))"
            "WEIGHT is missing"))
         do (is (search report (getf (first (apply #'answers text options)) :reason))
                "~a: ~s" options (apply #'answers text options))))
+
+(test boxes-that-are-not-valid-are-counted
+  (loop for (boxes . text) in
+        `(("()" . "supergrip: 1 of 1 box is not valid; its record says why")
+          (,(format nil "()~%~a" (one-line *pencil*))
+            . "supergrip: 1 of 2 boxes is not valid; its record says why")
+          ("() ()" . "supergrip: 2 of 2 boxes are not valid; their records say why"))
+        do (is (equal (list text) (lines-of (nth-value 2 (answers boxes)))) "~a" boxes)))
 
 (test check-reads-rules-and-grasps
   (destructuring-bind (status output errors) (shell "\"$0\" --check")
@@ -107,7 +120,7 @@
                      (supergrip:verify-knowledge (text-knowledge *good-rules* *good-grasps*)
                                                  :stream out))
                    output))
-        (is (equal (format nil "4 rules and 1 grasps, no mistakes~%") errors))))))
+        (is (equal (format nil "4 rules and 1 grasp, no mistakes~%") errors))))))
 
 (test rules-and-grasps-of-ones-own
   (with-text-file (rules "(RULE MINE (IF (CONSTRAINED (s1))) (THEN (CANT MY REASON)))")
@@ -155,7 +168,8 @@ line" "dots.." "..." "~" "café" "~a" "[" "*.*"))
           (shell "\"$0\" --format json \"$1\" /no/such/file - -- \"$2\" < \"$1\"" a b)
         (is (eql 66 status))
         (is (= 3 (length (lines-of output))))
-        (is (equal (format nil "supergrip: /no/such/file: can't be opened: No such file or directory~%")
+        (is (equal (format nil "supergrip: /no/such/file: can't be opened: No such file or ~
+                                directory~%")
                    errors)))
       (is (eql 66 (first (shell "\"$0\" /no/such/file \"$1\"" (format nil "~a" a)))))
       (is (eql 66 (first (shell "echo '((' | \"$0\" / -"))) "66 before 65"))))
@@ -221,7 +235,8 @@ records and what it said."
                       (is (equal "grasp" (getf (ignore-errors (read-from-string (first (last lines))))
                                                :status))
                           "the last record is whole")
-                      (is (search (format nil "ended by SIG~a after ~d boxes" name (length lines))
+                      (is (search (format nil "ended by SIG~a after ~d box~:*~[es~;~:;es~]" name
+                                          (length lines))
                                   errors)
                           "~a ~a" (length lines) errors)))))
 
@@ -362,11 +377,13 @@ cat \"$1\" | \"$0\" --input json --format sexp" (spoiled-json))
                                form)
                        "--report" folder)))
       (is (equal '(0 "") (reports "plans (assert (probe-file folder)) (values folder 0)")))
-      (is (equal (list 74 (format nil "supergrip: ~a: 2 pages can't be drawn; index.html says which, and why~%"
+      (is (equal (list 74 (format nil "supergrip: ~a: 2 pages can't be drawn; index.html says ~
+                                       which, and why~%"
                                   folder))
                  (reports "plans (values folder 2)")))
       (is (eql 70 (first (reports "(car folder)"))))
-      (is (eql 74 (first (reports "(open (merge-pathnames \"none/x\" folder) :direction :output)"))))
+      (is (eql 74
+               (first (reports "(open (merge-pathnames \"none/x\" folder) :direction :output)"))))
       (is (equal (list 74 (format nil "supergrip: /dev/null/x: can't be made: Not a directory~%"))
                  (reports "plans (error \"called\")" "/dev/null/x")))
       (is (equal (list 74 (format nil "supergrip: /dev/null: can't be written: Not a directory~%"))

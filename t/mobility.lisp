@@ -31,7 +31,8 @@
     (is (nearly-p (/ arm 3.2d0)
                   (second (mobility-of '(((1 0 0) (-1 0 0)) ((-1 0 0) (1 0 0))) 1)))))
   ;; A right angle at the elbow, the base under it: the links stand along the two axes, 3 long each.
-  ;; The tip is 3 outward and 3 deep.  Outward it moves by the first joint alone, along by the second.
+  ;; The tip is 3 outward and 3 deep.  Outward it moves by the first joint alone, along by the
+  ;; second.
   (let ((twist (mobility-of '(((6 0 0) (-1 0 0)) ((-6 0 0) (1 0 0))) 2.7d0
                             :length 3d0 :distance 6d0)))
     (is (nearly-p 1 (first twist)))

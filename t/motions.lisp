@@ -1,4 +1,5 @@
-;;;; motions.lisp -- motions in words, and where the contacts of a candidate have the least to spare.
+;;;; motions.lisp -- motions in words, and where the contacts of a candidate have the least to
+;;;; spare.
 
 (in-package :supergrip-test)
 (define-suite motions

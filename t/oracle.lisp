@@ -204,7 +204,8 @@ of (rule . fact), as strings, in the order in which the facts were remembered."
                         (funcall try grasp (instance suggestion bindings))))
                  (keep (finish :keep))
                  (cant (finish :cant (remove-if #'listp arguments))))))
-      (loop for (nil name (nil . clauses) (nil . actions)) in (remove 'input (own rules) :key #'first)
+      (loop for (nil name (nil . clauses) (nil . actions))
+            in (remove 'input (own rules) :key #'first)
             for all = (rule-bindings clauses facts)
             do (loop for (operator . arguments) in actions
                      do (dolist (bindings all)
@@ -413,7 +414,8 @@ the direction of gravity, a unit vector, and where it acts, from the box centre.
               (mapcar #'double (or (entry 'centre) '(0 0 0))))))
 
 (defun facts-in-order (facts)
-  "Return FACTS, sentences, each list of faces and then the lists themselves in the order of *FACES*."
+  "Return FACTS, sentences, each list of faces and then the lists themselves in the order of
+*FACES*."
   (flet ((place (face) (position face *faces*)))
     (let ((ordered (loop for fact in facts
                          collect (loop for part in fact

@@ -1,5 +1,6 @@
 ;;;; package.lisp -- the package of the tests, how they run, and what the chainer's tests share with
-;;;; the others: the chainer is tested with nothing else loaded.  All else that is shared: tools.lisp.
+;;;; the others: the chainer is tested with nothing else loaded.  All else that is shared:
+;;;; tools.lisp.
 
 (defpackage :supergrip-test
   (:use :cl :fiveam)

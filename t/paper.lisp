@@ -42,7 +42,8 @@ TWIST (0.8 0.5 1 0.2 1 1)))"))
 
 (test the-printed-grasp-ships-as-repaired
   (let* ((shipped (second (third (shipped-form "grasps.lisp" "SETQ" "PINCH-2-PARALLEL"))))
-         (printed (second (third (paper-form "(SETQ PINCH-2-PARALLEL" "(SETQ BOX" *grasp-repairs*)))))
+         (printed (second (third (paper-form "(SETQ PINCH-2-PARALLEL" "(SETQ BOX"
+                                             *grasp-repairs*)))))
     (is (= 10 (length printed)))
     (is (same-form-p printed (subseq shipped 0 10)))
     (is (equal '("CONTACTS" "PALM") (mapcar #'symbol-name (list (nth 10 shipped) (nth 12 shipped))))
@@ -55,7 +56,8 @@ TWIST (0.8 0.5 1 0.2 1 1)))"))
   "What the scan of the session has, and how it is read.")
 
 (test the-printed-session-comes-out
-  (let ((printed (part-between (file-text "t/paper-listings.txt") "(RULE SURFACES1 SAYS PAR" "§ end")))
+  (let ((printed
+         (part-between (file-text "t/paper-listings.txt") "(RULE SURFACES1 SAYS PAR" "§ end")))
     (loop for (from to) in *session-repairs*
           do (setf printed (replace-once printed from to)))
     (is (equal printed (transcript (supergrip:plan (paper-box)))))
@@ -127,8 +129,11 @@ stands in grasps.lisp and what is to stand there."
   (let ((session (file-text "t/pencil-session.txt")))
     (loop for (length distance pinch) in '(("3.0" "4.705" "10.5") ("4.0" "9.262" "12")
                                            ("5.0" "11.9077" "12"))
-          do (is (equal session (session-of `(("FINGER-LENGTH 3.2" ,(format nil "FINGER-LENGTH ~a" length))
-                                              ("FINGER-DIST   6.05" ,(format nil "FINGER-DIST ~a" distance))
-                                              ("DIST-PINCH    12" ,(format nil "DIST-PINCH ~a" pinch)))))
+          do (is (equal session (session-of `(("FINGER-LENGTH 3.2"
+                                               ,(format nil "FINGER-LENGTH ~a" length))
+                                              ("FINGER-DIST   6.05"
+                                               ,(format nil "FINGER-DIST ~a" distance))
+                                              ("DIST-PINCH    12"
+                                               ,(format nil "DIST-PINCH ~a" pinch)))))
                  "FINGER-LENGTH ~a" length))
     (is (not (equal session (session-of '(("FINGER-LENGTH 3.2" "FINGER-LENGTH 3.201"))))))))

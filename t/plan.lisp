@@ -29,8 +29,8 @@
       (funcall reader object)))
 
 (defun reader-answers (plan)
-  "Return a list of (READER . TEXT) for every exported reader of PLAN, its box, its knowledge and its
-candidates."
+  "Return a list of (READER . TEXT) for every exported reader of PLAN, its box, its knowledge and
+its candidates."
   (flet ((texts (prefix object)
            (loop for reader in (readers-of prefix)
                  collect (cons reader (prin1-to-string (ask reader object plan))))))
@@ -83,8 +83,8 @@ candidates."
 ;;; What is read does not change
 
 (defun structures-in (object seen)
-  "Put OBJECT, if it is a structure, and all structures in its slots, lists and vectors into the table
-SEEN.  Return it."
+  "Put OBJECT, if it is a structure, and all structures in its slots, lists and vectors into the
+table SEEN.  Return it."
   (typecase object
     (structure-object
      (unless (gethash object seen)

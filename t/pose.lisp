@@ -99,7 +99,8 @@ elsewhere."
           do (is (null (first-fault
                         (lambda (box)
                           (not (equalp (all-but-the-world box index)
-                                       (all-but-the-world (turned-about-vertical box (random 6d0 state))
+                                       (all-but-the-world (turned-about-vertical box
+                                                                                 (random 6d0 state))
                                                 index))))
                         (laid-boxes count 44 :pose 100)))))))
 
@@ -434,13 +435,15 @@ world."
          (record (supergrip::plan-record plan))
          (hand (getf record :hand)) (world (getf record :world)))
     (destructuring-bind (place orientation) (box-part box 'pose)
-      (flet ((world-place (vector) (mapcar #'+ place (supergrip-oracle::turned-by orientation vector)))
+      (flet ((world-place (vector)
+                          (mapcar #'+ place (supergrip-oracle::turned-by orientation vector)))
              (back (frame vector)
                (destructuring-bind (x y z w) (getf frame :orientation)
                  (supergrip-oracle::turned-by (list (- x) (- y) (- z) w)
                                               (mapcar #'- vector (getf frame :position))))))
         (cond ((null (supergrip:plan-best plan))
-               (and (or hand world (eq record (getf record :world record))) "a hand without a grasp"))
+               (and (or hand world (eq record (getf record :world record)))
+                    "a hand without a grasp"))
               ((not (equal world (supergrip:candidate-world (supergrip:plan-best plan) plan)))
                "the candidate's")
               ((not (eql (getf hand :opening) (getf world :opening))) "the opening")
@@ -450,7 +453,8 @@ world."
                        thereis (not (close-to (back hand at) (back world (world-place at)) 1d-8)))
                "a contact as the hand sees it")
               ((not (close-to (getf world :closing)
-                              (supergrip-oracle::turned-by (getf world :orientation) '(1d0 0d0 0d0))))
+                              (supergrip-oracle::turned-by (getf world :orientation)
+                                                           '(1d0 0d0 0d0))))
                "the closing direction"))))))
 
 (test the-hand-in-the-world-is-the-hand-on-the-box

@@ -1,7 +1,8 @@
-;;;; preliminary-assertions.lisp -- a preliminary assertion is one row, and everything follows from it.
+;;;; preliminary-assertions.lisp -- a preliminary assertion is one row, and everything follows from
+;;;; it.
 
 (in-package :supergrip-test)
-(define-suite inputs "A preliminary assertion is one row, and everything follows from it.")
+(define-suite preliminary-assertions "A preliminary assertion is one row, and everything follows from it.")
 
 (defun knowledge-with-rule (text)
   "Return the shipped knowledge with the rule TEXT before all others, and the list of the problems."

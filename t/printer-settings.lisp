@@ -1,7 +1,8 @@
-;;;; printer-settings.lisp -- texts whatever the printer is set to, names in any form, bounded answers.
+;;;; printer-settings.lisp -- texts whatever the printer is set to, names in any form, bounded
+;;;; answers.
 
 (in-package :supergrip-test)
-(define-suite plain "Texts whatever the printer is set to, names in any form, bounded answers.")
+(define-suite printer-settings "Texts whatever the printer is set to, names in any form, bounded answers.")
 
 (defmacro with-odd-printer (&body body)
   "Run BODY with the printer as no text of ours may show it."
@@ -70,7 +71,8 @@
                (rest (printed (supergrip:why-not '("PARALLEL" ("Y2" "y1")) plan)))))
     (is (equal (printed (supergrip:how '(object has free corners) plan))
                (printed (supergrip:how "object has free corners" plan))))
-    (is (equal (printed (supergrip:describe-rule 'grip9)) (printed (supergrip:describe-rule "grip9"))))
+    (is (equal (printed (supergrip:describe-rule 'grip9))
+               (printed (supergrip:describe-rule "grip9"))))
     (unwind-protect (is (equal '("GRIP9" "PINCH-3-CORNER")
                                (sort (progn (supergrip:trace-rule "grip9")
                                             (supergrip:trace-grasp :pinch-3-corner))
@@ -105,7 +107,8 @@
 
 (test the-current-box-and-plan-are-what-is-meant
   (let ((supergrip::*box* (supergrip:parse-box (paper-box))) (supergrip:*plan* (pencil-plan)))
-    (is (equal "PINCH-3-CORNER" (caar (supergrip::plan-tries (supergrip:try-grasp "PINCH-3-CORNER")))))
+    (is (equal "PINCH-3-CORNER"
+               (caar (supergrip::plan-tries (supergrip:try-grasp "PINCH-3-CORNER")))))
     (is (= 0.25d0 (supergrip:plan-gamma (supergrip:try-grasp 'pinch-3-corner :gamma 1/4))))
     (is (= 6 (length (supergrip:plan-candidates)) (length (supergrip:plan-possible))))
     (is (equal "PINCH-3-PARALLEL" (supergrip:plan-grasp)))
@@ -114,7 +117,7 @@
     (signals supergrip:no-box-error (supergrip:try-grasp "PINCH-3-CORNER"))
     (signals supergrip:no-plan-error (supergrip:plan-candidates)))
   (dolist (one (list (paper-box) `(setq box ',(paper-box)) (supergrip:parse-box (paper-box))))
-    (is (equal '("0 of 1 boxes differ: 0 in verdict, 0 in grasp, 0 in quality.")
+    (is (equal '("0 of 1 box differs: 0 in verdict, 0 in grasp, 0 in quality.")
                (printed (supergrip:compare-knowledge supergrip:*knowledge* supergrip:*knowledge*
                                                      one))))))
 
@@ -137,8 +140,9 @@
 
 (defun chain-plan (count)
   "Return a plan by a chain of COUNT rules, each of which needs what the last one said."
-  (let ((rules (format nil "(RULE A0 (IF (OPPOSED (S1 S2))) (THEN (REMEMBER P0 (S1 S2))))~%~:{(RULE ~
-                            A~d (IF (P~d (S1 S2))) (THEN (REMEMBER P~d (S1 S2))))~%~}"
+  (let ((rules (format nil "(RULE A0 (IF (OPPOSED (S1 S2))) (THEN (REMEMBER P0 (S1 ~
+                            S2))))~%~:{(RULE A~d (IF (P~d (S1 S2))) (THEN (REMEMBER P~d (S1 ~
+                            S2))))~%~}"
                        (loop for i from 1 to count collect (list i (1- i) i)))))
     (supergrip:plan (paper-box) :knowledge (text-knowledge rules (file-text "grasps.lisp")))))
 

@@ -184,8 +184,10 @@
 
 (test gamma-weighs-velocities-against-forces
   (flet ((best (gamma) (supergrip:plan-best (supergrip:plan (paper-box) :gamma gamma))))
-    (is (close-to (supergrip:candidate-quality (best 1)) (supergrip:candidate-velocity-radius (best 1))))
-    (is (close-to (supergrip:candidate-quality (best 0)) (supergrip:candidate-force-radius (best 0))))
+    (is (close-to (supergrip:candidate-quality (best 1))
+                  (supergrip:candidate-velocity-radius (best 1))))
+    (is (close-to (supergrip:candidate-quality (best 0))
+                  (supergrip:candidate-force-radius (best 0))))
     (is (close-to (supergrip:candidate-quality (best 1/4))
                   (+ (* 1/4 (supergrip:candidate-velocity-radius (best 1/4)))
                      (* 3/4 (supergrip:candidate-force-radius (best 1/4)))))))
@@ -193,7 +195,8 @@
     (signals supergrip:gamma-error (supergrip:plan (paper-box) :gamma gamma))))
 
 (defun plain-nearest (candidates plan)
-  "Return the nearest miss among CANDIDATES of PLAN, from its definition: each is looked at in full."
+  "Return the nearest miss among CANDIDATES of PLAN, from its definition: each is looked at in
+full."
   (let ((step (find-if (lambda (step) (find step candidates :key #'supergrip:candidate-outcome))
                        (reverse (supergrip::step-outcomes))))
         (best nil) (least nil))

@@ -3,8 +3,8 @@
     pip install clarabel scipy
     sbcl --script t/study.lisp radii | python3 t/radii.py
 
-A line is a case: how many contacts, each (position, inward normal), u, v, 1 if coupled, need, gravity,
-and what EXACT-RADIUS says: upper, lower (nan if not certified), worst motion.
+A line is a case: how many contacts, each (position, inward normal), u, v, 1 if coupled, need,
+gravity, and what EXACT-RADIUS says: upper, lower (nan if not certified), worst motion.
 """
 import sys
 import clarabel
@@ -25,7 +25,8 @@ def power(places, u, v, coupled, motions):
 
 
 def least_ratio(places, u, v, coupled, need, gravity, worst):
-    """The least (power + gravity's) / |need * motion| of many motions, and of walks from the best."""
+    """The least (power + gravity's) / |need * motion| of many motions, and of walks from the
+    best."""
     random = np.random.default_rng(1)
     reach = np.maximum(1e-6, power(places, u, v, coupled, np.eye(6)))
 
@@ -49,8 +50,8 @@ def least_ratio(places, u, v, coupled, need, gravity, worst):
 
 
 def greatest(places, u, v, coupled, gravity, wrench):
-    """The greatest r for which the fingers exert r * WRENCH - GRAVITY.  Of each finger the unknowns are
-    its normal force, and the shares of it that two forces across and the torque take."""
+    """The greatest r for which the fingers exert r * WRENCH - GRAVITY.  Of each finger the unknowns
+    are its normal force, and the shares of it that two forces across and the torque take."""
     count, columns = len(places), []
     for position, normal in places:
         tangents = np.linalg.svd(normal[None])[2][1:]
@@ -90,7 +91,8 @@ def check(numbers):
     upper, lower = numbers[16 + 6 * count:18 + 6 * count]
     worst = numbers[18 + 6 * count:]
     at_worst = (power(places, u, v, coupled, worst[None]) + worst @ gravity)[0]
-    assert abs(at_worst - upper) < 1e-7 * (1 + abs(upper)), "the upper value is not the worst motion's"
+    assert abs(at_worst - upper) < 1e-7 * (1 + abs(upper)), \
+        "the upper value is not the worst motion's"
     if upper <= 0:
         held = greatest(places, u, v, coupled, np.zeros(6), -gravity) if gravity.any() else np.inf
         assert held < 1 + 1e-6 or upper == 0, f"held: {held}"

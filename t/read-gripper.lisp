@@ -1,7 +1,8 @@
 ;;;; read-gripper.lisp -- the gripper: what it must name, its own file, the folder of a hand, edits.
 
 (in-package :supergrip-test)
-(define-suite read-gripper "The gripper: what it must name, its own file, the folder of a hand, edits.")
+(define-suite read-gripper
+  "The gripper: what it must name, its own file, the folder of a hand, edits.")
 
 (defparameter *jaw-rules*
   "(RULE FIND (IF (OPPOSED (s1 s2)) (NOT CONSTRAINED (s1)) (NOT CONSTRAINED (s2)) (NOT LARGE (s1 s2)))
@@ -54,7 +55,8 @@
 
 (test a-dimension-that-is-missing-is-named-with-its-users
   (flet ((missing (name users line)
-           (format nil "jaw.lisp:1: GRIPPER: ~a is missing: ~a; add it with your hand's number, as  ~a"
+           (format nil "jaw.lisp:1: GRIPPER: ~a is missing: ~a; add it with your hand's number, ~
+                         as  ~a"
                    name users line)))
     (is (equal (list (missing "DIST-PINCH" "GRASP CLAMP, grasps.lisp:4, uses it, and 1 other does"
                               "DIST-PINCH 12 ; cm, the opening of the hand"))
@@ -98,7 +100,8 @@
 
 (test what-uses-a-missing-dimension-is-left-out
   (let ((knowledge (gripper-knowledge "(SETQ GRIPPER '(FINGER-WIDTH 1))"
-                                      :rules (format nil "(RULE A (IF (SMALL (s1 s2))) (THEN (CANT X)))~%~a"
+                                      :rules (format nil "(RULE A (IF (SMALL (s1 s2))) (THEN (CANT ~
+                                                          X)))~%~a"
                                                      *jaw-rules*))))
     (is (equal '("A") (mapcar #'supergrip-chainer:rule-name (supergrip:knowledge-rules knowledge))))
     (is (null (supergrip:knowledge-grasps knowledge)))
@@ -135,10 +138,11 @@
 ;;; Files and folders
 
 (defmacro with-hand-folder ((name &rest files) &body body)
-  "Run BODY with NAME bound to a new folder, a string with / at its end, that holds FILES, each a list
-of a name and a text."
+  "Run BODY with NAME bound to a new folder, a string with / at its end, that holds FILES, each a
+list of a name and a text."
   `(let* ((directory (uiop:ensure-directory-pathname
-                      (format nil "~asupergrip-~36r" (uiop:native-namestring (uiop:temporary-directory))
+                      (format nil "~asupergrip-~36r"
+                              (uiop:native-namestring (uiop:temporary-directory))
                               (random (expt 36 8) (make-random-state t)))))
           (,name (uiop:native-namestring directory)))
      (ensure-directories-exist directory)
@@ -176,8 +180,8 @@ of a name and a text."
       (with-text-file (other "(SETQ GRIPPER '(MODEL \"Jaw 2\" DIST-PINCH 8))")
         (is (equal '("Jaw 2" 1) (names :hand hand :gripper other)) "a file that is named wins")))
     (delete-file (concatenate 'string hand "gripper.lisp"))
-    (is (equal (list (format nil "~agrasps.lisp: GRIPPER: there is no (SETQ GRIPPER '(...)) here, and no ~
-                                  gripper file is given" hand))
+    (is (equal (list (format nil "~agrasps.lisp: GRIPPER: there is no (SETQ GRIPPER '(...)) here, ~
+                                  and no gripper file is given" hand))
                (problem-texts (lambda () (supergrip:load-knowledge :hand hand)))))))
 
 (test a-folder-may-lack-rules-and-grasps
@@ -230,10 +234,12 @@ of a name and a text."
                      ("rules.lisp" *jaw-rules*) ("other.lisp" "(SETQ GRIPPER '(DIST-PINCH 1))"))
     (flet ((file (name) (concatenate 'string hand name)))
       (is (equal "CLAMP" (getf (first (answers *pencil* "--hand" hand)) :grasp)))
-      (is (equal "cant" (getf (first (answers *pencil* "--hand" hand "--gripper" (file "other.lisp")))
+      (is (equal "cant" (getf (first (answers *pencil* "--hand" hand "--gripper"
+                                              (file "other.lisp")))
                               :status)))
       (loop for (status report . options) in
-            `((0 ,(format nil "1 rules and 1 grasps, the gripper of ~agripper.lisp (Jaw 1), no mistakes~%"
+            `((0 ,(format nil "1 rule and 1 grasp, the gripper of ~agripper.lisp (Jaw 1), no ~
+                               mistakes~%"
                           hand)
                  "--hand" ,hand)
               (65 "FINGER-LENGTH is missing: GRASP PINCH-2-PARALLEL, grasps.lisp:"

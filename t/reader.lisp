@@ -35,7 +35,8 @@
 (test reader-rounds-to-the-nearest
   ;; The oracle is exact arithmetic: the readers of some Lisps are a bit off for 1e23.
   (loop for text in '("0.1" "0.2" "1.7375" "123456789.123456789" "1e22" "1e23"
-                      "1.7976931348623157e299" "2.2250738585072014e-299" "3.14159265358979323846264338"
+                      "1.7976931348623157e299" "2.2250738585072014e-299"
+                      "3.14159265358979323846264338"
                       "0.30000000000000004" "5e-300" "123e-20" "9007199254740993.0")
         do (is (nearest-p (first (read-text text)) (exact-decimal text)) text)))
 
@@ -90,7 +91,8 @@
           ("1/0" "1:1: 1/0 divides by zero")
           ("1e999" "1:1: 1e999 is out of range: numbers lie between 1e-300 and 1e300, or are 0")
           ("1e-999" "1:1: 1e-999 is out of range: numbers lie between 1e-300 and 1e300, or are 0")
-          ("1e99999999999" "1:1: 1e99999999999 is out of range: numbers lie between 1e-300 and 1e300, or are 0")
+          ("1e99999999999"
+           "1:1: 1e99999999999 is out of range: numbers lie between 1e-300 and 1e300, or are 0")
           ("'" "1:1: nothing follows this '"))
         do (is (equal report (read-failure text)) "~s: ~s" text (read-failure text))))
 
@@ -113,7 +115,8 @@
     ;; Every character counts, whatever it does.
     (dolist (text '("()" "'()" "(a)" "\"\"" "1 " "'1" ";
 "))
-      (is (search "longer than 65536 characters" (read-failure (format nil "(~a)" (repeat 40000 text))))
+      (is (search "longer than 65536 characters"
+                  (read-failure (format nil "(~a)" (repeat 40000 text))))
           text))
     (let ((supergrip-data:*record-limit* 12))
       (is (null (read-failure "(a '(1 \"b\"))   (a '(1 \"b\"))")))
@@ -124,8 +127,10 @@
   (let ((mark (code-char #xfeff)))
     (is (equal '(("A") ("B") ("C"))
                (read-text (format nil "~c(a)~c~%~c (b)~c(c)" mark mark mark mark))))
-    (is (equal "1:2: U+FEFF is not allowed in a name or a number" (read-failure (format nil "(~c)" mark))))
-    (is (equal "1:2: # is not allowed in a name or a number" (read-failure (format nil "~c(#)" mark)))
+    (is (equal "1:2: U+FEFF is not allowed in a name or a number"
+               (read-failure (format nil "(~c)" mark))))
+    (is (equal "1:2: # is not allowed in a name or a number"
+               (read-failure (format nil "~c(#)" mark)))
         "nor as a column")))
 
 (test what-shows-nothing-is-called-by-its-code
@@ -142,7 +147,8 @@
   (let ((source (supergrip-data:string-source (format nil "x ((a b)~%  '(c (d e)))"))))
     (supergrip-data:read-datum source)
     (supergrip-data:read-datum source)
-    (loop for (path . place) in '((() 1 3) ((0) 1 4) ((0 1) 1 7) ((1) 2 3) ((1 1) 2 4) ((1 1 1 1) 2 10)
+    (loop for (path . place) in '((() 1 3) ((0) 1 4) ((0 1) 1 7) ((1) 2 3) ((1 1) 2 4)
+                                  ((1 1 1 1) 2 10)
                                   ((7) 1 3) ((0 7) 1 4))
           do (is (equal place (multiple-value-list (supergrip-data:part-place source path)))
                  "~s" path))))
@@ -218,7 +224,8 @@
           ((1e30 #c(1 2)) . "is not allowed in a form")
           ((1d301) . "a number out of range: numbers lie between 1e-300 and 1e300, or are 0"))
         do (is (search report
-                       (or (first (problem-texts (lambda () (supergrip-data:canonical form)))) "")))))
+                       (or (first (problem-texts (lambda () (supergrip-data:canonical form))))
+                           "")))))
 
 (test forms-print-as-they-were-written
   (is (equal "((DIST '(N1 N2)) < 0.5 () \"x\")"

@@ -67,7 +67,8 @@
                 always (let ((number (* (if (zerop (random 2 state)) 1 -1)
                                         (random-between 1d-140 1d140 state))))
                          (and (eql number (getf (json-record (digits number)) :x))
-                              (eql number (getf (lisp-record (lisp-line (list :x number))) :x)))))))))
+                              (eql number
+                                   (getf (lisp-record (lisp-line (list :x number))) :x)))))))))
 
 (test any-name-is-one-line-in-both-notations
   (dolist (name (list "" "a\"b\\c" (format nil "a~%b~cc~cd" #\Return (code-char 0)) "café"

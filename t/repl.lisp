@@ -101,7 +101,8 @@
              supergrip:forward-chain :box ,(paper-box) rules 3)
             ("0.3 is not a key of FORWARD-CHAIN: keys are :BOX, :KNOWLEDGE, :GAMMA, :INDEX, :MARGIN, :STREAM, :TRACE, :STEP; a value goes after its key, as in (forward-chain box :gamma 0.3)"
              supergrip:forward-chain ,(paper-box) 0.3)
-            ("there is no value after the key :GAMMA of FORWARD-CHAIN" supergrip:forward-chain :gamma)
+            ("there is no value after the key :GAMMA of FORWARD-CHAIN" supergrip:forward-chain
+             :gamma)
             ("GRIP8 is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force; (describe-rule name) shows one rule"
              supergrip:rules grip8)
             ("PINCH-2-PARALLEL is not knowledge: LOAD-KNOWLEDGE returns it, *KNOWLEDGE* is in force; (grasp name) shows one grasp"
@@ -119,7 +120,8 @@
             ("COLOUR is not a key of a box: keys are SIZE, WEIGHT, U, V, CONSTRAINED, FORCE-NEEDED, VELOCITY-NEEDED, NAME, FACTS, UNITS, MASS, DATA, POSE, CENTRE"
              supergrip:box-value ,(supergrip:plan-box plan) :colour))
           do (is (equal text (error-text (apply function arguments)))))
-    (is (search "is not the name of a file" (error-text (supergrip:reload-knowledge :rules #p"*.lisp"))))
+    (is (search "is not the name of a file"
+                (error-text (supergrip:reload-knowledge :rules #p"*.lisp"))))
     (is (equal "" (with-output-to-string (*standard-output*)
                     (supergrip:write-transcript plan nil))))))
 

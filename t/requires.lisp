@@ -211,12 +211,15 @@ often tie."
 
 (test of-equal-dimensions-the-one-that-decides-is-named
   (with-knowledge-restored
-    (supergrip:edit '(setq gripper '(palm-depth 12 finger-length 3.2 finger-dist 6.05 finger-spread 1.7375
-                                    finger-width 0.3 nail 0.3 dist-pinch 12 width-hand 8 reach-u 4.85
+    (supergrip:edit '(setq gripper '(palm-depth 12 finger-length 3.2 finger-dist 6.05 finger-spread
+                                     1.7375
+                                    finger-width 0.3 nail 0.3 dist-pinch 12 width-hand 8 reach-u
+                                     4.85
                                     reach-c 4.825 slippery-u 0.1)))
     (loop for (what . line)
             in '(((large (z1 z2)) . "  the size along Z: 12, not 2 (no less than DIST-PINCH, 12)")
-                 ((small (y1 y2)) . "  the size along Y: 0.299, not 2 (less than FINGER-WIDTH, 0.3)"))
+                 ((small (y1 y2))
+                  . "  the size along Y: 0.299, not 2 (less than FINGER-WIDTH, 0.3)"))
           do (is (equal line (second (required-lines what)))))
     (supergrip:edit '(setq pinch-2-adjacent
                       '(used-surfaces (n1 n2 a2) conditions ((dist '(n1 n2)) > 8)

@@ -1,8 +1,8 @@
 ;;;; rooms.lisp -- sbcl --script t/rooms.lisp shows which room of src/ uses which, and checks it.
 ;;;;
 ;;;; The rooms are the directories of src/, in the order in which the systems load them.  A room may
-;;;; use those above it only, and inside a room no file may use, however indirectly, one that uses it.
-;;;; Who uses what is SBCL's own cross reference.
+;;;; use those above it only, and inside a room no file may use, however indirectly, one that uses
+;;;; it.  Who uses what is SBCL's own cross reference.
 
 (require :sb-introspect)
 (load (merge-pathnames "registry.lisp" *load-truename*))
@@ -24,7 +24,8 @@
 (defparameter *files* (make-hash-table :test #'equal) "What FILE-OF has answered.")
 
 (defun file-of (pathname)
-  "Return the name of the file PATHNAME below src/, as \"hand/box.lisp\", or NIL if it is elsewhere."
+  "Return the name of the file PATHNAME below src/, as \"hand/box.lisp\", or NIL if it is
+elsewhere."
   (flet ((look ()
            (let* ((pathname (and pathname (probe-file pathname)))
                   (name (and pathname (enough-namestring pathname *source*))))

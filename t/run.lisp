@@ -1,8 +1,8 @@
 ;;;; run.lisp -- sbcl --script t/run.lisp [SYSTEM] [--list | --shuffle [SEED]] [NAME...]
 ;;;;
 ;;;; Runs the tests of the test system SYSTEM, by default supergrip/test: all, or those that NAMEs
-;;;; name, each a test or a suite; a suite has the name of its file.  --shuffle runs them in a random
-;;;; order, which SEED chooses; it is printed.  --list prints their names and runs nothing.
+;;;; name, each a test or a suite; a suite has the name of its file.  --shuffle runs them in a
+;;;; random order, which SEED chooses; it is printed.  --list prints their names and runs nothing.
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
 

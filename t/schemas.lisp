@@ -63,8 +63,8 @@
                       collect (format nil "unknown key ~a" key)))))
 
 (defun schema-faults (value schema &optional (root schema))
-  "Return what of VALUE is not as SCHEMA, a part of ROOT, says: of JSON Schema, what ours use, but for
-patterns and conditions."
+  "Return what of VALUE is not as SCHEMA, a part of ROOT, says: of JSON Schema, what ours use, but
+for patterns and conditions."
   (let* ((schema (referred schema root)) (type (member-of schema "type"))
          (enum (member-of schema "enum"))
          (types (and type (if (stringp type) (list type) (elements-of type)))))

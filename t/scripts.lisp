@@ -33,9 +33,11 @@
 
 (test compiling-shows-on-a-terminal-how-far-it-is
   ;; However fast the machine: it began three seconds ago.
-  (let ((command (format nil "sbcl --noinform --no-userinit --non-interactive --load '~a' --eval '~a'"
+  (let ((command (format nil "sbcl --noinform --no-userinit --non-interactive --load '~a' --eval ~
+                              '~a'"
                          (uiop:native-namestring (project-file "src/boot.lisp"))
-                         "(funcall (supergrip-boot::progress nil (- (get-internal-real-time) (* 3 internal-time-units-per-second))))"))
+                         "(funcall (supergrip-boot::progress nil (- (get-internal-real-time) (* 3
+                          internal-time-units-per-second))))"))
         (shown "SUPER-GRIP is compiled, which is done once: 1 file"))
     (multiple-value-bind (status output errors) (run-process (list "sh" "-c" command))
       (is (equal '(0 "" "") (list status output errors))))
@@ -121,7 +123,8 @@ list of strings, there, with a cache of its own."
 " "A session with a debugger and settings of its own, as one under SLIME.")
 
 (defun damage (name directory length)
-  "Cut the compiled file NAME in the cache of DIRECTORY after LENGTH octets; it looks as old as before."
+  "Cut the compiled file NAME in the cache of DIRECTORY after LENGTH octets; it looks as old as
+before."
   (let ((file (find name (directory (merge-pathnames "cache/**/*.fasl" directory))
                     :key #'pathname-name :test #'string=)))
     (uiop:run-program

@@ -4,8 +4,9 @@
 ;;;;
 ;;;; Plans random boxes by INDEX, paper or exact, until COUNT of their best grasps have a certified
 ;;;; radius above 1.05, friction force and torque of a fingertip sharing its friction, as in MuJoCo.
-;;;; Writes the model of each into DIR, and a line of JSON to standard output: what loads are tried, and
-;;;; how hard the fingers press against each.  Newtons and metres; a finger presses with 1 N at most.
+;;;; Writes the model of each into DIR, and a line of JSON to standard output: what loads are tried,
+;;;; and how hard the fingers press against each.  Newtons and metres; a finger presses with 1 N at
+;;;; most.
 
 (load (merge-pathnames "../src/boot.lisp" *load-truename*))
 (let ((*standard-output* (make-broadcast-stream)))

@@ -64,7 +64,8 @@
      "rules.lisp:3: warning: RULE OBVIOUS, clause 2: the absence of PARALLEL is tested here, but RULE FIND, which derives it, comes later; rules run in order, each once")
     (:RULES "(IF (PARALLEL (s1 s2)))" "(IF (PARALLEL (s1 s2)) (NOT PARALLEL (s2 s1)))"
      "rules.lisp:12: warning: RULE ACROSS, clause 2: this contradicts clause 1, so the rule can never fire")
-    (:RULES "(REMEMBER PARALLEL (s1 s2))" "(REMEMBER PARALLEL (s1 s2)) (REMEMBER OBJECT HAS PARALLEL SURFACE)"
+    (:RULES "(REMEMBER PARALLEL (s1 s2))"
+            "(REMEMBER PARALLEL (s1 s2)) (REMEMBER OBJECT HAS PARALLEL SURFACE)"
      "rules.lisp:9: warning: RULE FIND, action 2: no rule tests OBJECT HAS PARALLEL SURFACE (did you mean OBJECT HAS PARALLEL SURFACES?)")
     (:RULES "(TRY G (s1 s2 ? ? ? ?))" "(REMEMBER DONE)"
      "grasps.lisp:6: warning: GRASP G: no rule tries it")
@@ -163,7 +164,7 @@
     (:GRASPS "(* 2 v)" "1e999"
      "grasps.lisp:11:13: 1e999 is out of range: numbers lie between 1e-300 and 1e300, or are 0")
     (:GRASPS "(1 1 1 1 1 1)" "(1 1 1 1 1 -1)"
-     "grasps.lisp:14: GRASP G, TWIST: an entry below 0: mobility is 0 or more")
+     "grasps.lisp:14: GRASP G, TWIST: an entry is below 0, but a mobility must be 0 or more")
     (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "((DIST '(N1 N2)) < DIST-PINCH AND)"
      "grasps.lisp:8: GRASP G, CONDITIONS: ((DIST '(N1 N2)) < DIST-PINCH AND): AND stands between two tests")
     (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "((DIST '(N1 N2)) LESS DIST-PINCH)"
@@ -175,7 +176,7 @@
     (:GRASPS "((DIST '(N1 N2)) < DIST-PINCH)" "(FINGER-LENGTH > DIST-PINCH)"
      "grasps.lisp:8: warning: GRASP G, CONDITIONS: these conditions are false for every box")
     (:GRASPS "(* 2 v)" "(LET* 1 2 3)"
-     "grasps.lisp:11: GRASP G, WRENCH: LET* is (LET* ((name form)...) form)")
+     "grasps.lisp:11: GRASP G, WRENCH: LET* is written (LET* ((name form)...) form)")
     (:GRASPS "(* 2 v)" "(COND (T 0 1))"
      "grasps.lisp:11: GRASP G, WRENCH: (T 0 1) is not a clause of COND, such as (T 0)")
     (:GRASPS "(* 2 v)" "(COND)"
@@ -219,8 +220,10 @@
                         *good-grasps*)))
     (is (equal '("grasps.lisp:15: GRASP G, CONTACTS: CONTACTS lists more than 50 contacts")
                (reports *good-rules*
-                        (replace-once *good-grasps* "((N1 0 0)" (format nil "(~a" (repeat 51 "(N1 0 0)"))))))
-    (let ((reports (reports (format nil "(RULE R (IF ~a) (THEN (KEEP BEST)))" (repeat 400 "(SMALL)"))
+                        (replace-once *good-grasps* "((N1 0 0)"
+                                      (format nil "(~a" (repeat 51 "(N1 0 0)"))))))
+    (let ((reports (reports (format nil "(RULE R (IF ~a) (THEN (KEEP BEST)))"
+                                    (repeat 400 "(SMALL)"))
                             *good-grasps*)))
       (is (= 21 (length reports)))
       (is (equal "rules.lisp:1: RULE R: and 380 more problems" (first (last reports)))))))
@@ -228,7 +231,8 @@
 (test several-mistakes-are-all-reported
   (let ((reports (mapcar #'princ-to-string
                          (nth-value 1 (text-knowledge
-                                       (replace-once (replace-once *good-rules* "(KEEP BEST)" "(KEEP IT)")
+                                       (replace-once (replace-once *good-rules* "(KEEP BEST)"
+                                                                   "(KEEP IT)")
                                                      "(SMALL (s1 s2))" "(SMALL (s1))")
                                        (replace-once *good-grasps* "PALM A2" "PALM A1"))))))
     (is (equal '("grasps.lisp:6: GRASP G, PALM: the palm faces A1, which is not one of USED-SURFACES"

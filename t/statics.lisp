@@ -17,7 +17,8 @@
                  (supergrip-data:string-source (file-text "grasps.lisp"))))
          (gripper (copy-list (second (third (first forms))))))
     (loop for (name number) on dimensions by #'cddr
-          do (setf (second (member-if (lambda (key) (supergrip-data:name= key name)) gripper)) number))
+          do (setf (second (member-if (lambda (key) (supergrip-data:name= key name)) gripper))
+                   number))
     (multiple-value-bind (graspbase problems)
         (supergrip-data:with-problems
           (supergrip::build-graspbase
@@ -50,7 +51,8 @@ and whether the grasping conditions hold."
     ("PINCH-2-ADJACENT" t t t t t t)
     ("PINCH-3-ADJACENT" t t nil nil nil t)
     ("PINCH-3-CORNER" nil nil nil nil nil nil))
-  "Which entries of WRENCH claim to be exact: along N O A, about N O A.  The docs/physics.md says the same.")
+  "Which entries of WRENCH claim to be exact: along N O A, about N O A.  The docs/physics.md says
+the same.")
 
 (defun read-maxima ()
   "Return the solver's results, a list of plists."

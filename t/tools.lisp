@@ -122,7 +122,8 @@ pairs of what the scan has and what is read."
  (FORCE-NEEDED (1 0.8 0.8 0.3 1 1)) (VELOCITY-NEEDED (0 0.8 0.8 0 0.8 0.8)))")
 
 (defparameter *json-pencil*
-  "{\"size\": [12, 2, 2], \"weight\": 0.2, \"u\": 0.8, \"v\": 0.2, \"constrained\": [\"Z2\", \"X1\"],
+  "{\"size\": [12, 2, 2], \"weight\": 0.2, \"u\": 0.8, \"v\": 0.2, \"constrained\": [\"Z2\",
+\"X1\"],
  \"force_needed\": [1, 0.8, 0.8, 0.3, 1, 1], \"velocity_needed\": [0, 0.8, 0.8, 0, 0.8, 0.8]}")
 
 (defun changed-box (key &rest values)
@@ -310,7 +311,8 @@ Half of the boxes are of a size that a hand can hold."
       (velocity-needed ,velocity))))
 
 (defun random-facts (declared state)
-  "Return random facts of one's own of the predicates DECLARED, a list of (NAME ARITY), in any order."
+  "Return random facts of one's own of the predicates DECLARED, a list of (NAME ARITY), in any
+order."
   (shuffle (loop for (name arity) in declared
                  append (if (zerop arity)
                             (when (chance 50 state) (list (list name)))
@@ -641,8 +643,8 @@ Half of the boxes are of a size that a hand can hold."
 ;;; What contacts can really do
 
 (defun candidate-case (candidate plan need)
-  "Return the case of CANDIDATE, a possible one of PLAN, with the task NEED: (contacts u v need gravity),
-what the functions of statics are asked with."
+  "Return the case of CANDIDATE, a possible one of PLAN, with the task NEED: (contacts u v need
+gravity), what the functions of statics are asked with."
   (let ((box (supergrip:plan-box plan)))
     (list (loop for contact in (supergrip:candidate-contacts candidate plan)
                 collect (list (getf contact :position) (getf contact :normal)))

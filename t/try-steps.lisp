@@ -1,7 +1,7 @@
 ;;;; try-steps.lisp -- a step of TRY is one row, and why a candidate fails it is one, too.
 
 (in-package :supergrip-test)
-(define-suite steps "A step of TRY is one row, and why a candidate fails it is one, too.")
+(define-suite try-steps "A step of TRY is one row, and why a candidate fails it is one, too.")
 
 (test a-step-of-try-is-one-row
   (let ((supergrip::*steps* supergrip::*steps*))

@@ -119,7 +119,8 @@
     (for-random-boxes (box 10 4102)
       (let* ((box (in-short box)) (record (record-of box knowledge :index :exact)))
         (loop for (length force cm fingers) in (subseq *unit-sizes* 1 3)
-              do (is (same-records-p record (record-of (box-in box length force cm fingers) knowledge
+              do (is (same-records-p record (record-of (box-in box length force cm fingers)
+                                                       knowledge
                                                        :index :exact)
                                      cm fingers)))))))
 
@@ -136,7 +137,8 @@
 (test a-mass-stands-in-the-place-of-the-weight
   (flet ((weight (description &optional (newtons 20))
            (supergrip:box-weight (supergrip:plan-box
-                                  (supergrip:plan description :knowledge (force-knowledge newtons))))))
+                                  (supergrip:plan description
+                                                  :knowledge (force-knowledge newtons))))))
     (is (close-to (/ (* 1.2d0 9.80665d0) 20) (weight *parcel*)))
     (is (close-to (/ (* 1.2d0 9.80665d0) 50) (weight *parcel* 50)))
     (is (close-to (/ (* 1.2d0 9.80665d0) 20) (weight (cons '(units cm lbf) (rest *parcel*)))))
@@ -154,8 +156,8 @@
 
 (test json-has-units-and-mass
   (flet ((json (units)
-           (json-box (format nil "{\"units\": ~a, \"size\": [300, 60, 50], \"mass\": 1.2, \"u\": 0.8, ~
-                                  \"v\": 2, \"constrained\": [\"Z2\"], \"name\": \"parcel\",
+           (json-box (format nil "{\"units\": ~a, \"size\": [300, 60, 50], \"mass\": 1.2, \"u\": ~
+                                  0.8, \"v\": 2, \"constrained\": [\"Z2\"], \"name\": \"parcel\",
                                   \"force_needed\": [5, 5, 10, 100, 100, 100],
                                   \"velocity_needed\": [1, 0, 0, 0, 0, 0]}" units))))
     (dolist (units '("[\"mm\", \"N\"]" "[\"MM\", \"n\"]"))
@@ -194,7 +196,8 @@
           "so does the confidence of a writer")
       ;; Near 1 the proof goes closer.
       (loop for factor from 1/4 to 8 by 1/4
-            do (pushnew (fits (loop for need in '(5 5 10 100 100 100) collect (* factor need))) seen)))
+            do (pushnew (fits (loop for need in '(5 5 10 100 100 100) collect (* factor need)))
+                        seen)))
     (is (null (set-exclusive-or seen '(t :false))))))
 
 (test extreme-boxes-in-units-have-records
@@ -228,9 +231,9 @@
                   (supergrip:plan-box (supergrip:forward-chain :box *good-box* :margin 1.5
                                                                :knowledge knowledge :stream nil)))))
     (loop for (margin text) in
-          '((0 "margin is 0; it is a number above 0, by which the weight and absolute needs are multiplied")
-            (:x "margin is X; it is a number above 0, by which the weight and absolute needs are multiplied")
-            (1d300 "BOX \"parcel\": its forces are out of range, from 1e-300 to 1e300, with a margin of 1e+300"))
+          '((0 "margin is 0, but must be a number above 0; the weight and absolute needs are multiplied by it")
+            (:x "margin is X, but must be a number above 0; the weight and absolute needs are multiplied by it")
+            (1d300 "BOX \"parcel\": with a margin of 1e+300 its forces are out of range: they must lie between 1e-300 and 1e300"))
           do (is (equal text (error-text (supergrip:plan *parcel* :knowledge knowledge
                                                                   :margin margin)))))))
 
@@ -264,7 +267,7 @@
             ((mass (mass -1))
              "BOX: (MASS -1) is not valid: MASS takes one number, 0 or more, in kg: (MASS 1.2)")
             ((u (weight 1))
-             "BOX: MASS stands in the place of WEIGHT, and both are given: leave out one"
+             "BOX: MASS and WEIGHT are both given; give only one of them"
              "BOX: U is missing; it takes one coefficient of friction, 0 or more: (U 0.8)")
             ((mass nil)
              "BOX: WEIGHT is missing; it takes one number, 0 or more, in N: (WEIGHT 0.2)")
@@ -273,9 +276,9 @@
             ((force-needed (force-needed (1 2 3)))
              "BOX: (FORCE-NEEDED (1 2 3)) is not valid: FORCE-NEEDED takes a list of six numbers, 0 or more, in N and N mm: (FORCE-NEEDED (1 0.8 0.8 0.3 1 1))")
             ((mass (mass 1d300))
-             "BOX: (MASS 1.0e300) can't be computed with: in cm, or N, it would be out of range, from 1e-300 to 1e300")
+             "BOX: (MASS 1.0e300) is out of range: in cm or N, it must lie between 1e-300 and 1e300")
             ((units (units m n) size (size 1 1 1d300))
-             "BOX: (SIZE 1 1 1.0e300) can't be computed with: in cm, or N, it would be out of range, from 1e-300 to 1e300"))
+             "BOX: (SIZE 1 1 1.0e300) is out of range: in cm or N, it must lie between 1e-300 and 1e300"))
           do (is (equal report (first (apply #'reports changes))))))
   (is (equal '("BOX: UNITS is given twice") (box-reports (cons '(units m n) *parcel*)))))
 
@@ -286,7 +289,7 @@
                (text *parcel*)))
     (is (equal "BOX: MASS needs FINGER-FORCE, one finger's greatest normal force in N, which the gripper does not name: add FINGER-FORCE and a number to (SETQ GRIPPER ...) in grasps.lisp"
                (text (cons '(mass 1) (remove :weight *good-box* :key #'first)))))
-    (is (search "its forces are out of range, from 1e-300 to 1e300, in finger forces of 1e-300 N"
+    (is (search "in finger forces of 1e-300 N its forces are out of range: they must lie between 1e-300 and 1e300"
                 (text (list* '(mass 100) (remove 'mass *parcel* :key #'first))
                       :knowledge (force-knowledge "1e-300"))))
     (signals supergrip:box-error (supergrip:forward-chain :box *parcel* :stream nil))
@@ -304,7 +307,8 @@
         (is (equal '("grasp" t) (list (getf one :status) (getf one :fits))))
         (is (= 30d0 (abs (second (getf (first (getf one :contacts)) :position)))) "in mm")
         (is (< (* 1.9d0 (getf two :sure)) (getf one :sure)) "a margin of 2")))
-    (is (search "--margin is a number above 0, not -1" (nth-value 2 (answers parcel "--margin" "-1"))))))
+    (is (search "--margin must be a number above 0, not -1"
+                (nth-value 2 (answers parcel "--margin" "-1"))))))
 
 ;;; In words
 
@@ -324,21 +328,26 @@
                     "the friction u: 0.1, not 0.8; then"
                     "the weight: 32.1 N, not 4 N; then"))
       (is (search part best) "~a~%~a" part best))
-    (is (not (search "which is enough if the needs only say" (subseq best 0 (search "Velocity" best)))))
+    (is (not (search "which is enough if the needs only say"
+                     (subseq best 0 (search "Velocity" best)))))
     (is (search "the size along Y: 2.99 mm, not 20 mm (less than FINGER-WIDTH, 3 mm)"
                 (words (lambda () (supergrip:requires '(small (y2 y1)) plan)))))
     (flet ((plan-with (&rest clauses)
              (supergrip:plan (append clauses
-                                     (remove-if (lambda (clause) (find (first clause) clauses :key #'first))
+                                     (remove-if (lambda (clause)
+                                                  (find (first clause) clauses :key #'first))
                                                 *parcel*))
                              :knowledge knowledge)))
       (loop for (plan text) in
             (list (list (plan-with '(mass 30) '(size 200 50 60))
                         "the load along Z is 294.2 N, the grasp bears 32")
-                  (list (plan-with '(size 200 250 260)) "the narrowest free pair, X, is 200 mm; the hand opens to 120"))
-            do (is (search text (supergrip:plan-reason plan)) "~a: ~a" text (supergrip:plan-reason plan)))
+                  (list (plan-with '(size 200 250 260))
+                        "the narrowest free pair, X, is 200 mm; the hand opens to 120"))
+            do (is (search text (supergrip:plan-reason plan)) "~a: ~a" text
+                   (supergrip:plan-reason plan)))
       (is (search "they are 250 mm apart, no less than DIST-PINCH, 120"
-                  (words (lambda () (supergrip:how '(large (y2 y1)) (plan-with '(size 200 250 260))))))))
+                  (words (lambda ()
+                           (supergrip:how '(large (y2 y1)) (plan-with '(size 200 250 260))))))))
     (is (search "F3 on Y1: from (0 10 0) mm to ("
                 (words (lambda () (supergrip:explain-refinement
                                    (supergrip:plan (box-in *plain-pencil* :mm :n 1/10 1/20)
@@ -346,8 +355,8 @@
     (is (equal "#<BOX 12.0 x 2.0 x 2.0 cm>" (princ-to-string (supergrip:parse-box *good-box*))))))
 
 (test a-change-in-units-changes-the-choice
-  "What EXPLAIN-BEST names is in the units of the box: the box with it, described anew, is one for which
-something else is chosen; in finger forces and cm the limit is the same."
+  "What EXPLAIN-BEST names is in the units of the box: the box with it, described anew, is one for
+which something else is chosen; in finger forces and cm the limit is the same."
   (let ((knowledge (force-knowledge)) (checked 0))
     (for-random-boxes (box 30 4103)
       (flet ((changes (description)

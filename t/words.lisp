@@ -64,7 +64,8 @@
     (let* ((*package* (find-package :supergrip-user))
            (plan (supergrip:forward-chain :stream nil))
            (rules (supergrip:rules)) (gripper (supergrip:gripper))
-           (grasps (loop for name in (supergrip:grasps) collect (list name (supergrip:grasp name)))))
+           (grasps (loop for name in (supergrip:grasps)
+                         collect (list name (supergrip:grasp name)))))
       (mapc #'eval rules)
       (loop for (name plist) in (cons (list 'gripper gripper) grasps)
             do (supergrip:edit `(setq ,name ',plist)))
@@ -128,7 +129,7 @@
   (with-session ()
     (let ((quoted (printed (eval-in-user "(progn (try 'pinch-3-parallel) (keep 'best))"))))
       (is (equal quoted (printed (eval-in-user "(progn (try pinch-3-parallel) (keep best))"))))
-      (is (equal "WORST can't be kept: what can be is the best, (keep 'best)"
+      (is (equal "WORST can't be kept: only the best can, by (keep 'best)"
                  (error-text (eval-in-user "(let ((best 'worst)) (keep best))")))))
     (loop for (text . typed)
             in '(("the quote is missing: write '(Y2 Y1 X2 X1 Z2 Z1)"
@@ -140,7 +141,8 @@
 (test words-that-only-show-can-not-be-set
   (let ((before supergrip:*knowledge*))
     (dolist (word '("possible-grasps" "assertions" "rules" "grasps"))
-      (is (equal (format nil "~:@(~a~) shows what SUPER-GRIP holds, and can't be set: give your variable another name"
+      (is (equal (format nil "~:@(~a~) shows what SUPER-GRIP holds, and can't be set: give your ~
+                              variable another name"
                          word)
                  (error-text (eval-in-user (format nil "(setq ~a '(1 2))" word))))))
     (signals supergrip:supergrip-error (eval-in-user "(setq pinch-2-parallel 7)"))
@@ -162,7 +164,8 @@
         (supergrip:forward-chain (paper-box) :stream nil))
       (is (equal '(("(OPPOSED LARGE CONSTRAINED)" "0")
                    ("(OPPOSED LARGE CONSTRAINED PARALLEL OBJECT ADJACENT)" "0")
-                   ("(OPPOSED LARGE CONSTRAINED PARALLEL OBJECT ADJACENT OBJECT CORNER OBJECT)" "4"))
+                   ("(OPPOSED LARGE CONSTRAINED PARALLEL OBJECT ADJACENT OBJECT CORNER OBJECT)"
+                    "4"))
                  (reverse seen))))
     (is (equal "6" (typed-value "(length possible-grasps)")))))
 

@@ -7,11 +7,11 @@
 
 (defstruct (batch (:constructor make-batch (knowledge gamma index notation format output)))
   "What records are made with, and how many were.  NOTATION is :LISP, :JSON or NIL, to tell from
-the input; FORMAT is :TRACE, :LISP, :JSON, the name of a writer, or NIL, as the input.  BAD counts the error records;
-BROKEN is true if one of them was an internal error.  LAST, after an error record, whose box may go
-on, is the line where it ended, or :REST once it did go on.  PLANS holds the plans for a report, the
-latest first, if KEEP is true; MARGIN is as for PLAN.  ALL says how many alternatives a record
-has, NIL for none; REFINE is true if it tells what refining gives.
+the input; FORMAT is :TRACE, :LISP, :JSON, the name of a writer, or NIL, as the input.  BAD counts
+the error records; BROKEN is true if one of them was an internal error.  LAST, after an error
+record, whose box may go on, is the line where it ended, or :REST once it did go on.  PLANS holds
+the plans for a report, the latest first, if KEEP is true; MARGIN is as for PLAN.  ALL says how many
+alternatives a record has, NIL for none; REFINE is true if it tells what refining gives.
 MODELS says where a file of each box goes, if not NIL; LOST is true if one could not be written."
   (knowledge nil :type knowledge)
   (gamma 0.5d0 :type double-float)
@@ -36,7 +36,8 @@ Signals a SYSTEM-FAILURE if the one can't be read or the other not written."
          (notation (or (batch-notation batch) (told-notation input source))))
     (setf (input-notation input) notation
           (batch-last batch) nil)
-    (unless (or (batch-format batch) (null (skip-to-json source))) ; nothing at all is in no notation
+    ;; An empty input is in no notation.
+    (unless (or (batch-format batch) (null (skip-to-json source)))
       (setf (batch-format batch) notation))
     (let ((*notation* notation)
           (*places* (lambda (spot) (spot-place source spot))))
@@ -128,7 +129,8 @@ end of the array; :VALUE, after a comma; :COMMA, after a value; :ANY, after an e
                    (column (source-column source)))
                (flet ((bad (text)
                         (answer-mistake batch text line column)))
-                 ;; An object at the beginning of a line, no comma before it, is no part of an array.
+                 ;; An object at the beginning of a line, no comma before it, is no part of an
+                 ;; array.
                  (when (and (eq state :comma) (char= character #\{) (= column 1))
                    (answer-mistake batch "this array is never closed" array-line array-column)
                    (setf state :start))
@@ -155,7 +157,8 @@ end of the array; :VALUE, after a comma; :COMMA, after a value; :ANY, after an e
 
 (defun answer-utf-16 (batch source)
   "Write the one record of text in UTF-16, and skip it: its lines begin with half of a character."
-  (answer-mistake batch "this is UTF-16; boxes are read as UTF-8, which iconv -f UTF-16 -t UTF-8 makes of it"
+  (answer-mistake batch
+                  "this is UTF-16, but must be UTF-8; iconv -f UTF-16 -t UTF-8 converts it"
                   (source-line source) (source-column source))
   (loop while (and (peek source)
                    (or (char/= (take-character source) #\Newline)
@@ -181,8 +184,9 @@ end of the array; :VALUE, after a comma; :COMMA, after a value; :ANY, after an e
 
 (defun read-json-box (source input alone after-error)
   "Return the value of the next record, or NIL and the list of what is wrong.  ALONE is true if it
-is not in an array, so that the rest of its line belongs to it if it is no object.  Where a key stands
-AFTER-ERROR, a brace before it was one too many: what it ended is skipped; the list is :REST then."
+is not in an array, so that the rest of its line belongs to it if it is no object.  Where a key
+stands AFTER-ERROR, a brace before it was one too many: what it ended is skipped; the list is :REST
+then."
   (let ((stops (if alone "{" ",]{")))
     (handler-case
         (let ((value (read-json source)))
@@ -221,7 +225,8 @@ COLUMN, and ends in the line END."
         (funcall (batch-after-record batch))))))
 
 (defun put-box-line (batch description line)
-  "Say before the trace of a box which it is; but a single box without a name has the paper's lines."
+  "Say before the trace of a box which it is; but a single box without a name has the paper's
+lines."
   (let ((name (description-name description))
         (output (batch-output batch)))
     (when (or name (plusp (batch-done batch)))
@@ -259,7 +264,8 @@ and whether they are ours."
     ((or error storage-condition) (condition)
       (values nil
               (list (make-problem :line line :column column
-                                  :text (format nil "internal error: ~a (a bug in SUPER-GRIP; to report it, send this box)"
+                                  :text (format nil "internal error: ~a (a bug in SUPER-GRIP; to ~
+                                                     report it, send this box)"
                                                 condition)))
               t))))
 
@@ -297,14 +303,14 @@ and whether they are ours."
 ;;; Files, one a box
 
 (defstruct (models (:constructor make-models (directory)))
-  "Where the models of the boxes of a run go: DIRECTORY, a string; NAMES has those of the files that are
-there already, without type."
+  "Where the models of the boxes of a run go: DIRECTORY, a string; NAMES has those of the files that
+are there already, without type."
   (directory nil :type string :read-only t)
   (names (make-hash-table :test #'equal) :read-only t))
 
 (defun new-stem (name models)
-  "Return the name of a file, without type, for the box NAME, a string or NIL: no other box of the run has
-it."
+  "Return the name of a file, without type, for the box NAME, a string or NIL: no other box of the
+run has it."
   (let ((names (models-names models)) (stem (file-stem name)))
     (loop for number from 1
           for try = (if (= number 1) stem (format nil "~a-~d" stem number))
@@ -313,8 +319,8 @@ it."
                (return try))))
 
 (defun write-model (batch plan line)
-  "Write the model of the best grasp of PLAN, of the box in LINE, into a file of its own; or tell why
-there is none."
+  "Write the model of the best grasp of PLAN, of the box in LINE, into a file of its own; or tell
+why there is none."
   (let ((models (batch-models batch)) (name (box-name (plan-box plan))))
     (if (null (plan-best plan))
         (tell-of-none +model-kind+ name line (plan-reason plan))

@@ -1,7 +1,7 @@
-;;;; data.lisp -- what a box carries along, DATA, is written: what was JSON as JSON or Lisp, and
-;;;; so on.
+;;;; data.lisp -- DATA, which a box carries along, is written in JSON or in Lisp, whatever its
+;;;; notation was in the box.
 ;;;;
-;;;; A string is written here, too.
+;;;; The file also writes strings.
 
 (in-package :supergrip)
 

@@ -1,9 +1,10 @@
-;;;; input-buffer.lisp -- the characters of a descriptor, as soon as they are there, for the data reader.
+;;;; input-buffer.lisp -- the characters of a descriptor, as soon as they are there, for the data
+;;;; reader.
 ;;;;
-;;;; Octets are decoded as UTF-8; what is not UTF-8 becomes U+FFFD.  The reader gets them in
-;;;; pieces that end where a line that starts a record begins: a record that is still open there
-;;;; has lost a parenthesis or a quote.  The reader is then told that the input ends, so that the
-;;;; mistake affects no other record.
+;;;; Octets are decoded as UTF-8; what is not UTF-8 becomes U+FFFD.  The reader gets them in pieces.
+;;;; A piece ends before each line that starts a record.  A record that is still open there has lost
+;;;; a parenthesis or a quote; the reader is then told that the input ends, so that the mistake
+;;;; affects no other record.
 
 (in-package :supergrip)
 
@@ -135,8 +136,8 @@ end."
                     :lisp)))))))
 
 (defun first-notation (characters start end)
-  "Return the notation of the first line of CHARACTERS between START and END that begins a box, so that
-a comment or a line of a log does not matter; or NIL."
+  "Return the notation of the first line of CHARACTERS between START and END that begins a box, so
+that a comment or a line of a log does not matter; or NIL."
   (loop for place = (position-if-not #'blank-before-box-p characters :start start :end end)
         while place
         thereis (line-notation characters place end)
@@ -176,8 +177,8 @@ The second value is true if more characters are needed to tell."
                 (and (member :maybe answers) t))))))
 
 (defun after-marks (input place)
-  "Return PLACE, or the one after the marks and separators that stand there.  Only so many are looked
-at, since the buffer could not hold any number of them."
+  "Return PLACE, or the one after the marks and separators that stand there.  Only so many are
+looked at, since the buffer could not hold any number of them."
   (let ((end (min (input-end input) (+ place 1000))))
     (or (position-if-not (lambda (character)
                            (or (char= character +mark+) (char= character +separator+)))

@@ -1,4 +1,5 @@
-;;;; json-boxes.lisp -- a box description in JSON becomes the paper's list; messages quote it as JSON.
+;;;; json-boxes.lisp -- a box description in JSON becomes the paper's list; messages quote it as
+;;;; JSON.
 
 (in-package :supergrip)
 
@@ -12,8 +13,8 @@ is; CANONICAL-BOX refuses it."
       value))
 
 (defun json-values (key value)
-  "Return what the clause of KEY, a string, would hold for VALUE: a list, or VALUE itself where KEY takes
-an array and VALUE is none."
+  "Return what the clause of KEY, a string, would hold for VALUE: a list, or VALUE itself where KEY
+takes an array and VALUE is none."
   (let ((row (key-named key))
         (elements (and (json-array-p value) (json-array-elements value))))
     (cond ((null row) (list value))

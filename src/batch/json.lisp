@@ -1,4 +1,5 @@
-;;;; json.lisp -- the reader of JSON (RFC 8259, RFC 7464), with the tokens, limits and reports of reader.lisp.
+;;;; json.lisp -- the reader of JSON (RFC 8259, RFC 7464), with the tokens, limits and reports of
+;;;; reader.lisp.
 
 (in-package :supergrip)
 
@@ -94,8 +95,8 @@ WHAT names it for the reports."
                  (let ((character (look)))
                    (cond ((char= character close) (return))
                          ((char= character #\,) (next source))
-                         (t (fail source "~a stands where a comma or ~a should"
-                                  (character-description character) close))))))
+                         (t (fail source "a comma or ~a was expected, not ~a" close
+                                  (character-description character)))))))
       (next source)
       (cdr head))))
 
@@ -112,14 +113,14 @@ WHAT names it for the reports."
 (defun read-member (source depth)
   "Read a key, which is a name, and its value."
   (unless (eql (peek source) #\")
-    (fail source "~a stands where a key in double quotes should"
+    (fail source "a key in double quotes was expected, not ~a"
           (character-description (peek source))))
   (note-place source depth)
   (let ((line (source-line source))
         (column (source-column source))
         (key (read-json-string source)))
     (when (> (length key) (the fixnum *name-limit*))
-      (fail-at source line column "a name of ~d characters; at most ~d are read"
+      (fail-at source line column "a name of ~d character~:p; at most ~d ~:*~[~;is~:;are~] read"
                (length key) *name-limit*))
     (unless (eql (skip-white source) #\:)
       (fail-at source line column "the key \"~a\" is not followed by a colon" (excerpt key)))
@@ -269,8 +270,8 @@ before its digits, and digits on both sides of a point."
 (defun skip-json (source stops &optional depth)
   "Skip what is left of a value in which READ-JSON has found an error: as far as the brace that
 closes it.  Outside all braces, skip as far as one of the characters STOPS or the end of the line.
-Brackets count for nothing inside braces, since the value may lack one; a separator before a brace ends it.
-DEPTH, if it is given, tells how many braces are open."
+Brackets count for nothing inside braces, since the value may lack one; a separator before a brace
+ends it.  DEPTH, if it is given, tells how many braces are open."
   (end-record source)
   (when depth (setf (source-depth source) depth))
   (loop for character = (peek source)

@@ -20,7 +20,7 @@ run of more than two seconds has come."
 (defun show-progress (batch seconds output)
   (handler-case
       (progn
-        (put-text output (format nil "~c~d boxes, ~d a second, ~d bad~c[K" #\Return
+        (put-text output (format nil "~c~d box~:*~[es~;~:;es~], ~d a second, ~d bad~c[K" #\Return
                                  (batch-done batch) (floor (batch-done batch) seconds)
                                  (batch-bad batch) (code-char 27)))
         (flush-output output))
@@ -35,8 +35,8 @@ run of more than two seconds has come."
         when file append (list key file)))
 
 (defun knowledge-of (options)
-  "Return the knowledge of the files that OPTIONS, a plist, name, or what is built in if they name none.
-Signals a KNOWLEDGE-ERROR."
+  "Return the knowledge of the files that OPTIONS, a plist, name, or what is built in if they name
+none.  Signals a KNOWLEDGE-ERROR."
   (let ((files (knowledge-options options)))
     (if files (apply #'load-knowledge files) *knowledge*)))
 
@@ -49,8 +49,8 @@ Signals a KNOWLEDGE-ERROR."
       nil)))
 
 (defun try-knowledge (options)
-  "Return the knowledge of the files that OPTIONS, a plist, name; or NIL and the exit status, after a
-report."
+  "Return the knowledge of the files that OPTIONS, a plist, name; or NIL and the exit status, after
+a report."
   (if (destructuring-bind (&key hand rules grasps (gripper (and hand (hand-gripper hand)))
                            &allow-other-keys)
           options
@@ -68,15 +68,16 @@ report."
   "Report that KNOWLEDGE has no mistakes, and of how many things was warned."
   (let ((warnings (length (knowledge-warnings knowledge)))
         (gripper (knowledge-gripper-file knowledge)))
-    (tell "~d rules and ~d grasps~@[, the gripper of ~a~]~@[ (~a)~], no mistakes~[~:;, ~:*~d ~
+    (tell "~d rule~:p and ~d grasp~:p~@[, the gripper of ~a~]~@[ (~a)~], no mistakes~[~:;, ~:*~d ~
            warning~:p~]"
           (length (knowledge-rules knowledge)) (length (knowledge-grasps knowledge))
-          (and gripper (data-file-name gripper)) (and gripper (knowledge-model knowledge)) warnings))
+          (and gripper (data-file-name gripper)) (and gripper (knowledge-model knowledge))
+          warnings))
   0)
 
 (defun check-and-verify (knowledge gamma)
-  "Report on KNOWLEDGE as CHECK does, and write what is proved and found about it to standard output.
-Return the exit status: what is found is no mistake."
+  "Report on KNOWLEDGE as CHECK does, and write what is proved and found about it to standard
+output.  Return the exit status: what is found is no mistake."
   (check knowledge)
   (print-and-end (with-output-to-string (out)
                    (verify-knowledge knowledge :gamma gamma :stream out))))
@@ -99,8 +100,8 @@ Return the exit status: what is found is no mistake."
       66)))
 
 (defun run-files (batch files &optional directory)
-  "Answer the boxes of FILES, by default of standard input, write the report into DIRECTORY if that is
-given, and return the exit status."
+  "Answer the boxes of FILES, by default of standard input, write the report into DIRECTORY if that
+is given, and return the exit status."
   (let ((statuses '()))
     (handler-case
         (loop for file in (or files '("-"))
@@ -108,7 +109,8 @@ given, and return the exit status."
               do (push (unless-signalled (run-file batch file)) statuses))
       (write-failure (condition)
         (unless (closed-pipe-p condition)
-          (tell "supergrip: standard output: ~a; ~d records are complete at most" condition
+          (tell "supergrip: standard output: ~a; at most ~d record~:p ~:*~[are~;is~:;are~] complete"
+                condition
                 (batch-done batch))
           (push 74 statuses))))
     (when directory
@@ -141,7 +143,8 @@ string; NIL if the pictures are not loaded."
   "As REPORT-INDEX, loading the pictures first if they are not there.  Signals NO-PICTURES."
   (cond ((report-index))
         (*kept-files*
-         (error 'no-pictures :reason "it was built without cl-who; install that, and build it again"))
+         (error 'no-pictures
+                :reason "it was built without cl-who; install cl-who, and build it again"))
         (t (handler-case (let ((*error-output* (make-broadcast-stream))) ; SBCL's word on the file
                            (load (merge-pathnames "src/draw/boot.lisp" *home*)))
              (error (condition) (error 'no-pictures :reason condition)))
@@ -167,8 +170,8 @@ report of what could not be drawn or written."
   (directory-ready-p directory))
 
 (defun directory-ready-p (directory)
-  "Return true if files can be written into DIRECTORY, a string, made if it is not there; tell why, if
-not."
+  "Return true if files can be written into DIRECTORY, a string, made if it is not there; tell why,
+if not."
   (handler-case (progn (make-directories directory)
                        (check-writable directory)
                        t)
@@ -179,11 +182,14 @@ not."
 (defun report-end (batch)
   "Say on standard error what is not as it should be."
   (when *signal*
-    (tell "supergrip: ended by ~a after ~d boxes~:[~;; the report is not complete~]" *signal*
+    (tell "supergrip: ended by ~a after ~d box~:*~[es~;~:;es~]~:[~;; the report is not complete~]"
+          *signal*
           (batch-done batch) (batch-keep batch)))
   (when (plusp (batch-bad batch))
-    (tell "supergrip: ~d of ~d boxes are not valid; their records say why" (batch-bad batch)
-          (batch-done batch))))
+    (let ((one (= 1 (batch-bad batch))))
+      (tell "supergrip: ~d of ~d box~:*~[es~;~:;es~] ~:[are~;is~] not valid; ~:[their records ~
+             say~;its record says~] why"
+            (batch-bad batch) (batch-done batch) one one))))
 
 (defun print-and-end (text)
   "Write TEXT to standard output, and return the exit status."
@@ -219,7 +225,9 @@ not."
                                     (getf options :input) (getf options :format)
                                     (make-output 1)))
                  (*certified* (getf options :all
-                                    (if (find-writer (getf options :format)) most-positive-fixnum 1)))
+                                    (if (find-writer (getf options :format))
+                                        most-positive-fixnum
+                                        1)))
                  (*depth-limit* (getf options :depth-limit *depth-limit*))
                  (*record-limit* (room-for (getf options :record-limit *record-limit*)))
                  (*number-limit* (getf options :number-limit *number-limit*))
@@ -279,8 +287,9 @@ prints, and the boxes, rules and grasps it was given."
 ;;; The executable
 
 (defun warm-up ()
-  "Answer the examples that the keys of a box make, in each notation, by each index, in each format: the
-first call of a generic function takes SBCL long, and an image that is saved then has them behind it."
+  "Answer the examples that the keys of a box make, in each notation, by each index, in each format:
+the first call of a generic function takes SBCL long, and an image that is saved then has them
+behind it."
   (flet ((answer-example (*notation* name rows)
            (let ((description (loop for row in rows
                                     collect (cons (funcall name row) (box-key-example row)))))
@@ -290,8 +299,8 @@ first call of a generic function takes SBCL long, and an image that is saved the
                                           (make-output 1)))) ; nothing is flushed
                    (setf (batch-all batch) 2)
                    (answer batch description '() 1)))))))
-    ;; No rule declares the fact of the example, so with it this is an error record.  The gripper may
-    ;; lack FINGER-FORCE, which some units need.
+    ;; No rule declares the fact of the example, so with it this is an error record.  The gripper
+    ;; may lack FINGER-FORCE, which some units need.
     (let ((all (remove-if #'box-key-instead *box-keys*)))
       (dolist (rows (list all (set-difference all (list (find-key :facts) (find-key :units)))))
         (answer-example :lisp #'box-key-key rows)
@@ -308,7 +317,7 @@ directory of SUPER-GRIP, and end."
         (tell "supergrip: ~a: ~a" file condition)
         (end-process 66)))
     (unless (report-index)
-      (tell "supergrip: without --report, since cl-who is not there"))
+      (tell "supergrip: the executable has no --report, since cl-who is missing"))
     (keep-shipped-files)
     (warm-up)
     (never-debug #'report-internal-error)

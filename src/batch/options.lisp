@@ -8,35 +8,37 @@
 (defparameter +help+
   "usage: supergrip [OPTION]... [FILE]...
 
-Read boxes from each FILE, or from standard input without FILE or where FILE is -, and write one
-record a box to standard output, in the same order: the best of seven grasps for each.
+Read boxes from each FILE, and write one record for each box to standard output, in the same order:
+the best grasp, or why there is none.  Without FILE, or where FILE is -, read standard input.
 
-  --input sexp|json         what boxes look like; by default as the input begins
-  --format trace|sexp|json  what records look like: the paper's lines, one s-expression a line, or
-                            one JSON object a line; by default as the boxes
+  --input sexp|json         the notation of boxes; by default the input's beginning decides
+  --format trace|sexp|json  the notation of records: the paper's lines, one s-expression a line, or
+                            one JSON object a line; by default the notation of the boxes
   --format isaac|moveit|graspgen
-                            in place of records, the grasps for another program (docs/formats.md):
-                            all possible ones of each box, or with --all N so many
+                            write grasps for another program in place of records
+                            (docs/formats.md): all possible grasps of each box, or the N best with
+                            --all N
   --mjcf DIR                also write the best grasp of each box into DIR, as a model for MuJoCo
   --rules FILE              rules to use instead of those that are built in
   --grasps FILE             grasps and gripper to use instead of those that are built in
-  --gripper FILE            the gripper alone, which takes the place of that of the grasps
-  --hand DIR                a hand's own gripper.lisp, rules.lisp and grasps.lisp; where DIR lacks one
-                            of the last two, what is built in serves
-  --gamma X                 from 0, forces alone, to 1, velocities alone; 0.5 by default
+  --gripper FILE            gripper to use instead of the one in the file of grasps
+  --hand DIR                take gripper.lisp, rules.lisp and grasps.lisp from the folder DIR; if it
+                            has no rules.lisp or grasps.lisp, the one that is built in is used
+  --gamma X                 the share of velocities in the quality, from 0 (forces alone) to 1
+                            (velocities alone); 0.5 by default
   --margin X                multiply weights, and needs in N or lbf, by X
-  --index paper|exact       what grasps are rated by: the paper's index, or what their contacts can
-                            really do, proved, which takes a thousand times as long
-  --all N                   also write the N best possible grasps of each box, the best first, with all
-                            that is written of the best; 1000 at most
-  --refine                  also move the fingers of the three best grasps to better places, and write
-                            where they went, what that gains, and how much more is possible at most;
-                            about half a second a box
+  --index paper|exact       rate grasps by the paper's index, or by what their contacts can really
+                            do, with proof; exact takes a thousand times as long
+  --all N                   also write the N best possible grasps of each box, the best first, each
+                            with the same details as the best; N is at most 1000
+  --refine                  also move the fingers of the three best grasps to better places; write
+                            the new places, the gain, and a bound of what any places could gain;
+                            takes about half a second a box
   --report DIR              also write a page for each box into DIR, and an index with thumbnails;
-                            needs cl-who (docs/pictures.md), and keeps all plans till the end
+                            needs cl-who (docs/pictures.md), and keeps all plans in memory
   --check                   only read the rules and grasps, and say what is wrong with them
-  --verify                  with --check: also report to standard output what is proved of the rules,
-                            and where they and the grasps disagree (docs/verifying.md)
+  --verify                  with --check: also report what is proved of the rules, and where rules
+                            and grasps disagree, to standard output (docs/verifying.md)
   --depth-limit N           how deep lists may nest; 32 by default, 1000 at most
   --record-limit N          the most characters of one box; 65536 by default, 1000000 at most, and
                             fewer if the heap (--dynamic-space-size) has no room for them
@@ -46,15 +48,15 @@ record a box to standard output, in the same order: the best of seven grasps for
   --version                 print the version, and end
 
 Exit status:
-  0    all boxes planned, also those that can't be grasped
+  0    every box was planned; some may have no grasp
   64   the command line is wrong
   65   a box, a rule or a grasp is not valid (its record says why)
   66   a file can't be opened or read
-  69   --report, but the pictures can't be loaded, or were not there at the build: cl-who is missing
+  69   --report can't draw: cl-who is missing, or was missing when the executable was built
   70   an internal error, a bug in SUPER-GRIP
-  74   output, a page of the report or a model was lost
+  74   output, a page of the report or a model could not be written
   130  after SIGINT, 143 after SIGTERM
-Where several apply: 70, 74, 130 or 143, 66, 65.
+If several apply, the first of 70, 74, 130 or 143, 66, 65 is returned.
 
 Examples:
   supergrip boxes.lisp > records.lisp
@@ -103,7 +105,8 @@ Examples:
   "Return a plist of the options in ARGUMENTS, a list of strings, and the list of the files."
   (let ((options '()) (files '()))
     (when (eq arguments :unreadable)
-      (misused "the command line, or the name of a file in it, is not text in the locale's encoding"))
+      (misused "the command line, or the name of a file in it, is not text in the ~
+                locale's encoding"))
     (loop while arguments
           do (let ((argument (pop arguments)))
                (cond ((string= argument "--")
@@ -139,20 +142,20 @@ of REST, the arguments after it."
     (:file (if (string= text "") (misused "~a needs the name of a file" name) text))
     (:choice (if (member text bounds :test #'string=)
                  (intern (if (string= text "sexp") "LISP" (string-upcase text)) :keyword)
-                 (misused "~a is ~{~a~#[~; or ~:;, ~]~}, not ~a" name bounds text)))
+                 (misused "~a must be ~{~a~#[~; or ~:;, ~]~}, not ~a" name bounds text)))
     (:gamma (let ((number (text-number text)))
               (if (and number (<= 0 number 1))
                   number
-                  (misused "~a is a number from 0, forces alone, to 1, velocities alone, not ~a"
-                           name text))))
+                  (misused "~a must be a number from 0 (forces alone) to 1 (velocities alone), ~
+                            not ~a" name text))))
     (:factor (let ((number (text-number text)))
                (if (and number (plusp number))
                    number
-                   (misused "~a is a number above 0, not ~a" name text))))
+                   (misused "~a must be a number above 0, not ~a" name text))))
     (:count (let ((number (text-number text)))
               (if (and (integerp number) (<= 1 number (first bounds)))
                   number
-                  (misused "~a is a whole number from 1 to ~d, not ~a" name (first bounds)
+                  (misused "~a must be a whole number from 1 to ~d, not ~a" name (first bounds)
                            text))))))
 
 (defun text-number (text)

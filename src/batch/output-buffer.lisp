@@ -54,7 +54,8 @@
     (string (loop for c across text do (put-character output c)))))
 
 (defun put-visible (output text)
-  "Put TEXT, a string of one line or several, for people: what a terminal would obey goes by its name."
+  "Put TEXT, a string of one line or several, for people: what a terminal would obey goes by its
+name."
   (loop for character across text
         do (if (and (or (char< character #\Space) (< 126 (char-code character) 160))
                     (char/= character #\Newline))

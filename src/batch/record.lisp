@@ -48,16 +48,16 @@ Lengths are in cm, forces in finger forces: see RECORD-IN-UNITS."
   (and carried (list :data carried)))
 
 (defun alternatives (plan most)
-  "Return at most MOST of the possible grasps of PLAN, the best first: of each, a plist, what a record
-tells of the best, from :GRASP to :CONTACTS and from :SURE on."
+  "Return at most MOST of the possible grasps of PLAN, the best first: of each, a plist, what a
+record tells of the best, from :GRASP to :CONTACTS and from :SURE on."
   (loop for candidate in (best-grasps plan most)
         for contacts = (candidate-contacts candidate plan)
         collect (append (grasp-part candidate contacts) (further-part candidate contacts plan))))
 
 (defun refined-part (plan)
-  "Return what REFINE makes of PLAN, a plist, NIL without a grasp: :GRASP and :MATCHING; :QUALITY, exact and
-certified, :QUALITY-BEFORE, the same before the fingers moved, and :QUALITY-BOUND, which no legal places
-exceed; :BETA, the exact radius, (LOWER UPPER); :CONTACTS and :HAND after the move."
+  "Return what REFINE makes of PLAN, a plist, NIL without a grasp: :GRASP and :MATCHING; :QUALITY,
+exact and certified, :QUALITY-BEFORE, the same before the fingers moved, and :QUALITY-BOUND, which
+no legal places exceed; :BETA, the exact radius, (LOWER UPPER); :CONTACTS and :HAND after the move."
   (let ((refinement (refine plan)))
     (when refinement
       (let ((candidate (refinement-candidate refinement))
@@ -79,7 +79,8 @@ exceed; :BETA, the exact radius, (LOWER UPPER); :CONTACTS and :HAND after the mo
                unless (eq key :position) collect key and collect value)))
 
 (defun further-part (best contacts plan)
-  "Return the part of a record that tells more of the grasp BEST, with CONTACTS, of PLAN, or of none."
+  "Return the part of a record that tells more of the grasp BEST, with CONTACTS, of PLAN, or of
+none."
   (let ((hand (and best (contacts-hand best contacts (plan-box plan)))))
     (append (list :sure (and best (candidate-sure best plan))
                   :hand hand)

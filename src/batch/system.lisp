@@ -1,7 +1,7 @@
 ;;;; system.lisp -- what the batch needs of SBCL and the system: descriptors, signals, the process.
 ;;;;
-;;;; Lisp's own streams do not serve: they wait until a buffer is full, so a pipe that pauses would get
-;;;; no answer; and they hide why a write failed.
+;;;; Lisp's own streams do not serve: they wait until a buffer is full, so a pipe that pauses would
+;;;; get no answer; and they hide why a write failed.
 
 (in-package :supergrip)
 
@@ -13,8 +13,8 @@
 
 ;;; Signals
 ;;;
-;;; SIGINT and SIGTERM end the program, with 130 and 143.  When, *WHEN-ASKED* says: it ends at once, by
-;;; a throw where there is something to put in order, and after the record in hand while there is one.
+;;; SIGINT and SIGTERM end the program, with 130 and 143.  *WHEN-ASKED* says when: at once, by a
+;;; throw where there is something to put in order; or after the record in hand, while there is one.
 
 (defconstant +patience+ 3 "How many seconds the record in hand may take after a signal.")
 
@@ -94,8 +94,8 @@
         (error 'write-failure :what "can't be written" :errno errno))))
 
 (defun write-file (file text)
-  "Put TEXT, as UTF-8, in the place of FILE, a string: nobody sees a half of it, and a link that stands
-there is replaced, not followed."
+  "Put TEXT, as UTF-8, in the place of FILE, a string: nobody sees a half of it, and a link that
+stands there is replaced, not followed."
   (let ((new (concatenate 'string file ".new"))
         (octets (coerce (sb-ext:string-to-octets text :external-format :utf-8) 'octets))
         (done nil))
@@ -114,17 +114,18 @@ there is replaced, not followed."
         (unless done (sb-unix:unix-unlink new))))))
 
 (defun check-access (name mode)
-  "Return NIL if MODE, 4 to read, 2 to write, 1 to search, is allowed to us for NAME, a string; or the
-system's error number."
+  "Return NIL if MODE, 4 to read, 2 to write, 1 to search, is allowed to us for NAME, a string; or
+the system's error number."
   (if (zerop (sb-alien:alien-funcall
-              (sb-alien:extern-alien "access" (function sb-alien:int sb-alien:c-string sb-alien:int))
+              (sb-alien:extern-alien "access"
+                                     (function sb-alien:int sb-alien:c-string sb-alien:int))
               name mode))
       nil
       (sb-alien:get-errno)))
 
 (defun check-readable (file)
-  "Signal a READ-FAILURE unless FILE, a string, is a file that can be read.  It is not opened: a pipe
-can be opened once."
+  "Signal a READ-FAILURE unless FILE, a string, is a file that can be read.  It is not opened: a
+pipe can be opened once."
   (let ((errno (check-access file 4)))
     (cond (errno (error 'read-failure :what "can't be opened" :errno errno))
           ((directory-p file)
@@ -188,8 +189,8 @@ and the exponent E of 0.D x 10^E."
 ;;; The process
 
 (defun command-arguments ()
-  "Return the arguments of the command line, without the program and what SBCL itself takes; :UNREADABLE
-if they are no text in the locale's encoding: SBCL then has none at all."
+  "Return the arguments of the command line, without the program and what SBCL itself takes;
+:UNREADABLE if they are no text in the locale's encoding: SBCL then has none at all."
   (if sb-ext:*posix-argv* (rest sb-ext:*posix-argv*) :unreadable))
 
 (defun end-process (status)
@@ -210,8 +211,8 @@ if they are no text in the locale's encoding: SBCL then has none at all."
     (catch-signals)))
 
 (defun never-debug (report)
-  "Let an error that nothing handles end the process, with the status that REPORT, a function, returns
-for it; and SIGINT, if SBCL still handles it."
+  "Let an error that nothing handles end the process, with the status that REPORT, a function,
+returns for it; and SIGINT, if SBCL still handles it."
   (setf sb-ext:*invoke-debugger-hook*
         (lambda (condition hook)
           (declare (ignore hook))
@@ -222,8 +223,8 @@ for it; and SIGINT, if SBCL still handles it."
 (defun save-program (file function)
   "Save this image as the executable FILE, which calls FUNCTION, and end.
 Options of SBCL's runtime, as --dynamic-space-size, stay possible before all others."
-  ;; While SBCL starts, and collects garbage, its own handlers are in force: that of SIGTERM would leave
-  ;; with 0 or, asked twice, with 1; that of SIGINT gets to NEVER-DEBUG.
+  ;; While SBCL starts, and collects garbage, its own handlers are in force: that of SIGTERM would
+  ;; leave with 0 or, asked twice, with 1; that of SIGINT gets to NEVER-DEBUG.
   (sb-ext:without-package-locks
     (setf (fdefinition 'sb-unix::sigterm-handler)
           (lambda (signal info context)

@@ -1,4 +1,5 @@
-;;;; check-rules.lisp -- warnings: what is well formed in a rule base, but almost certainly a mistake.
+;;;; check-rules.lisp -- warnings: what is well formed in a rule base, but almost certainly a
+;;;; mistake.
 ;;;;
 ;;;; A misspelt predicate is not an error to a chainer: under the closed-world assumption it is just
 ;;;; never true.  So every sentence is followed from the rules that derive it to those that test it.
@@ -56,15 +57,15 @@ WORDS and its SURFACES, sorted, each as one text."
     (values (reverse tests) (reverse conclusions))))
 
 (defun tested-sentences (forms)
-  "Return what the rules FORMS test: a list of (RULE WORDS CLAUSE), the name of a rule, the words of a
-clause as one text, and its form."
+  "Return what the rules FORMS test: a list of (RULE WORDS CLAUSE), the name of a rule, the words of
+a clause as one text, and its form."
   (loop for use in (collect-uses forms)
         collect (list (use-name use) (use-words use) (use-form use))))
 
 (defstruct (sources (:constructor make-sources (given derivers names)))
   "Where sentences come from: tables from the words of one to true if it is GIVEN, an input, and to
-the conclusions that are its DERIVERS, a list of the first and, in order, of all that CHECK-ORDER has
-not passed yet; and the NAMES of all."
+the conclusions that are its DERIVERS, a list of the first and, in order, of all that CHECK-ORDER
+has not passed yet; and the NAMES of all."
   given derivers names)
 
 (defun collect-sources (conclusions inputs)

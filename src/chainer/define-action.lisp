@@ -1,14 +1,16 @@
-;;;; define-action.lisp -- what an action of a rule is: DEFINE-ACTION, and what a verb tells of itself.
+;;;; define-action.lisp -- what an action of a rule is: DEFINE-ACTION, and what a verb tells of
+;;;; itself.
 ;;;;
-;;;; REMEMBER and CANT are defined in remember-and-cant.lisp, TRY and KEEP in plan/try-and-keep.lisp.
+;;;; REMEMBER and CANT are defined in remember-and-cant.lisp, TRY and KEEP in
+;;;; plan/try-and-keep.lisp.
 
 (in-package :supergrip-chainer)
 
 (defstruct action
-  "One action of a consequent.  VERB is its first word, a string, OPERANDS the rest of FORM, NUMBER its
-place in the rule.  FUNCTION is called with a memory, the rule and a binding; it returns NIL, or a STOP
-to end the run.  ONCE is true if no binding after the first makes a difference.  PREDICATE and TERMS
-are what it remembers, TARGET what else it names, if anything."
+  "One action of a consequent.  VERB is its first word, a string, OPERANDS the rest of FORM, NUMBER
+its place in the rule.  FUNCTION is called with a memory, the rule and a binding; it returns NIL, or
+a STOP to end the run.  ONCE is true if no binding after the first makes a difference.  PREDICATE
+and TERMS are what it remembers, TARGET what else it names, if anything."
   (verb "" :type string :read-only t) (operands '() :read-only t) (form nil :read-only t)
   (number 0 :type (unsigned-byte 16) :read-only t)
   (function nil :type (or null function) :read-only t) (once nil :read-only t)
@@ -27,8 +29,8 @@ are what it remembers, TARGET what else it names, if anything."
                :function function :once once :predicate predicate :terms terms :target target))
 
 (defgeneric compile-action (verb action client)
-  (:documentation "Return ACTION, which begins with VERB, a keyword, finished by FINISH-ACTION, or NIL
-after complaints.  CLIENT is that of BUILD-RULEBASE.  This is where an action is attached:
+  (:documentation "Return ACTION, which begins with VERB, a keyword, finished by FINISH-ACTION, or
+NIL after complaints.  CLIENT is that of BUILD-RULEBASE.  This is where an action is attached:
 DEFINE-ACTION adds a method.")
   (:method (verb action client)
     (declare (ignore client))
@@ -38,7 +40,8 @@ DEFINE-ACTION adds a method.")
 ;;; What else is known of an action.  By default, as little as can be; a verb adds methods.
 
 (defgeneric action-conclusion (verb operands)
-  (:documentation "Return the sentence that an action VERB, a keyword, of OPERANDS remembers, or NIL.")
+  (:documentation "Return the sentence that an action VERB, a keyword, of OPERANDS remembers, or
+NIL.")
   (:method (verb operands)
     (declare (ignore verb operands))
     nil))
@@ -69,8 +72,8 @@ level, as the grasp that it tries.")
     (form-text (action-form action))))
 
 (defun verb-key (verb)
-  "Return the keyword that VERB, a name or a string, stands for in the methods above; or VERB itself if
-no action has it."
+  "Return the keyword that VERB, a name or a string, stands for in the methods above; or VERB itself
+if no action has it."
   (or (find-symbol (string verb) :keyword) verb))
 
 (defun adjoin-last (verb verbs)
@@ -78,9 +81,9 @@ no action has it."
 
 (defmacro define-action (verb (action client) &body body)
   "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, and returns what
-FINISH-ACTION makes of it, or NIL after complaints.  Its function must not keep the memory that it is
-called with, which serves other runs, too; and it may be called again when a question about the run is
-asked."
+FINISH-ACTION makes of it, or NIL after complaints.  Its function must not keep the memory that it
+is called with, which serves other runs, too; and it may be called again when a question about the
+run is asked."
   `(progn
      (setf *action-verbs* (adjoin-last ,(symbol-name verb) *action-verbs*))
      (defmethod compile-action ((verb (eql ,verb)) ,action ,client)

@@ -46,9 +46,9 @@ number.")
 FACT-BITS).  FACTS holds the face lists in the order in which they were remembered, those of each
 predicate from +MOST-FACTS+ times its index on, and COUNTS how many it has.  USED holds the indices
 of the predicates that have facts, USED-COUNT of them.  AWAKE has a bit for each rule that may fire,
-and SLEEPERS, for each predicate, the list of the rules that its first fact wakes (see SLEEPING-RULES).
-BINDINGS holds the FOUND bindings of the rule being run.  LOG holds the events of a run, the newest
-first.  CLIENT is whatever the actions of the lower level need."
+and SLEEPERS, for each predicate, the list of the rules that its first fact wakes (see
+SLEEPING-RULES).  BINDINGS holds the FOUND bindings of the rule being run.  LOG holds the events of
+a run, the newest first.  CLIENT is whatever the actions of the lower level need."
   (relations nil :type relations)
   (facts nil :type face-lists)
   (counts nil :type face-lists)
@@ -65,10 +65,10 @@ first.  CLIENT is whatever the actions of the lower level need."
 
 (declaim (inline fact-bits known-p))
 (defun fact-bits (arity face-list)
-  "Return the bits that stand for the faces of FACE-LIST, in any order, among the facts of a predicate
-of ARITY: for one face that of the face, so that six bits are the set of them; for two, a and b, the
-bits 6a+b and 6b+a, so that the six bits from 6a are the set of the partners of a; for more the bit
-whose number is the set."
+  "Return the bits that stand for the faces of FACE-LIST, in any order, among the facts of a
+predicate of ARITY: for one face that of the face, so that six bits are the set of them; for two, a
+and b, the bits 6a+b and 6b+a, so that the six bits from 6a are the set of the partners of a; for
+more the bit whose number is the set."
   (declare (type (integer 0 6) arity) (type face-list face-list))
   (the (unsigned-byte 64)
        (case arity
@@ -112,11 +112,11 @@ whose number is the set."
       t)))
 
 (defun remember (memory predicate face-list)
-  "Put into MEMORY that PREDICATE is true of the faces of FACE-LIST, a list of as many faces as those of
-PREDICATE have.  True if it was not there."
+  "Put into MEMORY that PREDICATE is true of the faces of FACE-LIST, a list of as many faces as
+those of PREDICATE have.  True if it was not there."
   (declare (type face-list face-list))
   (assert (= (face-list-count face-list) (predicate-arity predicate)) (face-list)
-          "~a takes ~d different surfaces, not those of ~a" (predicate-text predicate)
+          "~a takes ~d different surface~:p, not those of ~a" (predicate-text predicate)
           (predicate-arity predicate) (face-list-names face-list))
   (put-fact memory predicate face-list))
 
@@ -171,4 +171,5 @@ all its lists of surfaces, as strings."
         for facts = (facts memory predicate)
         when facts
           collect (append (predicate-words predicate)
-                          (and (plusp (predicate-arity predicate)) (mapcar #'face-list-names facts)))))
+                          (and (plusp (predicate-arity predicate))
+                               (mapcar #'face-list-names facts)))))

@@ -14,8 +14,8 @@
 ;;;; Most clauses become none of them.  A clause of one or two surfaces, negated or not, leaves its
 ;;;; last variable to be bound a set of faces, six bits that the memory holds ready (see FACT-BITS).
 ;;;; So where a variable is bound, the sets of all such clauses are intersected first: they are its
-;;;; filters, one integer each.  Only faces in all sets are tried, and where one is left in a walk
-;;;; over pairs, there is nothing to walk.
+;;;; filters, one integer each.  Only faces in all sets are tried.  A walk over pairs for which only
+;;;; one face is left needs no walk.
 ;;;;
 ;;;; Tests and filters bind nothing.  So running them early changes neither which bindings are found
 ;;;; nor their order.
@@ -32,8 +32,8 @@
 ;;; From clauses to matchers
 
 (defun compile-antecedent (clauses actions count)
-  "Return the matcher of a rule of CLAUSES and ACTIONS, which has COUNT variables.  It leaves out some of
-the bindings that would do nothing."
+  "Return the matcher of a rule of CLAUSES and ACTIONS, which has COUNT variables.  It leaves out
+some of the bindings that would do nothing."
   (let ((*interchangeable* (interchangeable-pairs clauses actions count))
         (*unseen* (unseen-variables actions count)))
     (compile-clauses clauses '())))
@@ -158,7 +158,8 @@ the bindings that would do nothing."
   (if (clause-variables clause)
       (compile-variable-test clause next)
       (let ((bits (fact-bits (length (clause-terms clause))
-                             (make-face-list (mapcar (lambda (term) (- -1 term)) (clause-terms clause)))))
+                             (make-face-list (mapcar (lambda (term) (- -1 term))
+                                                     (clause-terms clause)))))
             (index (predicate-index (clause-predicate clause)))
             (wanted (not (clause-negated clause))))
         (declare (function next))

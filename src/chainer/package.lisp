@@ -26,7 +26,8 @@ one generic function.")
    #:rulebase #:build-rulebase #:rulebase-rules #:rulebase-predicates
    #:find-rule #:find-predicate
    ;; actions
-   #:define-action #:finish-action #:compile-action #:action-verbs #:verb-key #:action-conclusion #:action-mentions
+   #:define-action #:finish-action #:compile-action #:action-verbs #:verb-key #:action-conclusion
+   #:action-mentions
    #:action-sees-p #:symmetric-action-p #:describe-action #:sentence-text
    #:loose-surface-p #:list-surfaces #:parse-surfaces #:parse-sentence #:negation-p
    #:term-variable-p #:term-value #:instantiate

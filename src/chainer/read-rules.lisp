@@ -29,7 +29,7 @@ AWAKE and SLEEPERS are what SLEEPING-RULES returns."
   (sleepers #() :type simple-vector :read-only t)
   (table nil :type hash-table :read-only t))
 
-(define-printing (rulebase rulebase) "~d rules" (length (rulebase-rules rulebase)))
+(define-printing (rulebase rulebase) "~d rule~:p" (length (rulebase-rules rulebase)))
 
 (defun find-rule (rulebase name)
   "Return the rule of RULEBASE that has NAME, or NIL."

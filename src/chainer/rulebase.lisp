@@ -11,8 +11,8 @@
 (defparameter *clause-limit* 500 "The most clauses that a rule may have.")
 
 (defun parse-parts (parse forms label)
-  "Return what PARSE makes of each of FORMS and its number, from 0; or NIL if one of them is wrong.  The
-place in the reports is LABEL and a number from 1."
+  "Return what PARSE makes of each of FORMS and its number, from 0; or NIL if one of them is wrong.
+The place in the reports is LABEL and a number from 1."
   (let ((parts (loop for form in forms
                      for number from 0
                      for *place* = (format nil "~a ~d" label (1+ number))
@@ -21,8 +21,8 @@ place in the reports is LABEL and a number from 1."
     (and (notany #'null parts) parts)))
 
 (defun parse-rule (form index)
-  "Return the rule that FORM, (RULE name (IF clause...) (THEN action...)), spells, the one with INDEX.
-NIL after a complaint."
+  "Return the rule that FORM, (RULE name (IF clause...) (THEN action...)), spells, the one with
+INDEX.  NIL after a complaint."
   (let* ((name (and (consp form) (namep (second form)) (second form)))
          (*subject* (if name (format nil "RULE ~a" name) "RULE without a name"))
          (*place* nil)
@@ -95,8 +95,8 @@ Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
                      :from-end t))
 
 (defun sleeping-rules (rules count)
-  "Return which of RULES may fire whatever is known, one bit each; and for each of COUNT predicates, the
-list of the indices of the others that wait for its first fact."
+  "Return which of RULES may fire whatever is known, one bit each; and for each of COUNT predicates,
+the list of the indices of the others that wait for its first fact."
   (let ((awake (make-array (length rules) :element-type 'bit :initial-element 0))
         (sleepers (make-array count :initial-element '()))
         (askers (make-array count :initial-element 0)))

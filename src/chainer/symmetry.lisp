@@ -2,7 +2,7 @@
 ;;;;
 ;;;; Many rules say the same when two of their variables are exchanged, such as (ADJACENT (s1 s2)).
 ;;;; Then every binding has a twin.  The later of the two changes nothing, so a run leaves it out.
-;;;; And where no action sees the last two variables, that they can be bound is enough.
+;;;; Where no action sees the last two variables, it is enough to know that they can be bound.
 
 (in-package :supergrip-chainer)
 
@@ -19,8 +19,8 @@
       (member (reverse pair) *interchangeable* :test #'equal)))
 
 (defun interchangeable-pairs (clauses actions count)
-  "Return the pairs of COUNT variables whose exchange leaves a rule as it was: its CLAUSES, and what its
-ACTIONS do.  Lists of surfaces are unordered."
+  "Return the pairs of COUNT variables whose exchange leaves a rule as it was: its CLAUSES, and what
+its ACTIONS do.  Lists of surfaces are unordered."
   (loop for a below count
         append (loop for b from (1+ a) below count
                      when (and (same-clauses-p clauses a b)

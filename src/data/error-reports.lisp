@@ -1,7 +1,7 @@
 ;;;; error-reports.lisp -- what is wrong with a file is collected, and told all at once.
 ;;;;
-;;;; The words stand where a mistake is found: of characters and parentheses in reader.lisp, of files that
-;;;; can't be opened in files.lisp.
+;;;; The texts of messages stand in the file that finds the mistake: those about characters and
+;;;; parentheses in reader.lisp, those about files that can't be opened in files.lisp.
 
 (in-package :supergrip-data)
 
@@ -93,7 +93,8 @@ goes on without the rules and grasps that are wrong."))
 
 (defvar *file* nil "The name of the file whose contents are being checked, or NIL.")
 (defvar *lines* nil "A table from each list read from that file to its line, or NIL.")
-(defvar *places* nil "Instead of *LINES*: a function that returns the line and the column of a form.")
+(defvar *places* nil "Instead of *LINES*: a function that returns the line and the column of a
+form.")
 (defvar *comments* nil "A table from each outermost list of that file to the comment before it.")
 (defvar *subject* nil "What is being checked, for the reports: \"RULE GRIP1\".")
 (defvar *place* nil "Which part of it: \"clause 2\".")
@@ -104,8 +105,8 @@ goes on without the rules and grasps that are wrong."))
 (defparameter *problems-limit* 1000 "How many problems of one file or box are told.")
 
 (defstruct tally
-  "How many problems of a subject were TOLD, how many only counted, UNTOLD, and the problem MORE that
-says so."
+  "How many problems of a subject were TOLD, how many only counted, UNTOLD, and the problem MORE
+that says so."
   (told 0 :type fixnum) (untold 0 :type fixnum) (more nil))
 
 (defstruct report
@@ -144,8 +145,8 @@ unknown, they are no slips of the pen.")
 
 (defmacro complain (form control &rest arguments)
   "Note an error in FORM, a list or a part of one, described by the format CONTROL and ARGUMENTS.
-A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL.  ARGUMENTS are not computed
-if enough was told already."
+A CONTROL that is a list (:WARNING STRING) notes a warning.  Returns NIL.  ARGUMENTS are not
+computed if enough was told already."
   `(note-problem ,form ,control (lambda () (list ,@arguments))))
 
 (defun note-problem (form control arguments)

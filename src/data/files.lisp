@@ -12,7 +12,8 @@ but / means anything.  If DIRECTORY is true, it is a directory, with or without 
                                          :as-directory directory))
         ((and (pathnamep file) (not (wild-pathname-p file)))
          (if directory (uiop:ensure-directory-pathname file) file))
-        (t (refuse-argument "~a is not the name of a file: that is a string, or a path without wild cards"
+        (t (refuse-argument "~a is not the name of a file: that is a string, or a path without ~
+                             wild cards"
                             (form-text file)))))
 
 ;;; Files, with the system's reason where something can't be done
@@ -52,8 +53,8 @@ but / means anything.  If DIRECTORY is true, it is a directory, with or without 
     (and mode (= (logand mode #o170000) #o040000))))
 
 (defun file-text (file)
-  "Return the text of FILE, a string, or its beginning if it is far too long for the heap.  Octets that
-are not UTF-8 become U+FFFD.  Signals a READ-FAILURE."
+  "Return the text of FILE, a string, or its beginning if it is far too long for the heap.  Octets
+that are not UTF-8 become U+FFFD.  Signals a READ-FAILURE."
   (let ((octets (make-array 65536 :element-type '(unsigned-byte 8)))
         (end 0))
     (with-open-stream (in (sb-sys:make-fd-stream (open-descriptor file) :buffering :full

@@ -32,8 +32,8 @@ never interns."
 ;;; Tables of rows
 
 (defun with-row (row rows name)
-  "Return ROWS, a list, with ROW in the place of the one for which the function NAME gives the same, or
-last."
+  "Return ROWS, a list, with ROW in the place of the one for which the function NAME gives the same,
+or last."
   (let ((old (find (funcall name row) rows :key name :test #'equal)))
     (if old (substitute row old rows) (append rows (list row)))))
 
@@ -95,8 +95,8 @@ is for forms that were read."
         (plainly (write-form form #'put))))))
 
 (defun write-form (form put)
-  "Call PUT, a function, with each piece of the text of FORM.  A form that never ends is no harm if PUT
-ends it."
+  "Call PUT, a function, with each piece of the text of FORM.  A form that never ends is no harm if
+PUT ends it."
   (flet ((put (text) (funcall put text)))
     (cond ((null form) (put "()"))
           ((symbolp form) (put (visible-text (symbol-name form))))

@@ -41,7 +41,8 @@
         ((and (< mantissa (expt 2 53)) (<= -22 exponent 22))
          ;; Both factors are exact doubles, so one operation rounds once.
          (let ((power (svref (load-time-value
-                              (coerce (loop for i from 0 to 22 collect (coerce (expt 10 i) 'double-float))
+                              (coerce (loop for i from 0 to 22
+                                            collect (coerce (expt 10 i) 'double-float))
                                       'simple-vector))
                              (abs exponent))))
            (declare (double-float power))
@@ -57,8 +58,8 @@
 (defun bounded-quotient (numerator denominator)
   "Return the double nearest to NUMERATOR / DENOMINATOR, integers above 0, or NIL and :RANGE."
   (declare (type (integer 1) numerator denominator))
-  ;; A quotient of 56 or 57 bits, the last one set if there is a remainder, is a machine integer, and
-  ;; what rounds it to a double rounds once.
+  ;; A quotient of 56 or 57 bits, the last one set if there is a remainder, is a machine integer,
+  ;; and what rounds it to a double rounds once.
   (let ((shift (- (+ 56 (integer-length denominator)) (integer-length numerator))))
     (multiple-value-bind (quotient remainder)
         (truncate (ash numerator (max shift 0)) (ash denominator (max (- shift) 0)))

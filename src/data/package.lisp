@@ -3,8 +3,8 @@
 (defpackage :supergrip-data
   (:use :cl)
   (:lock t)
-  (:documentation "Reads rule, grasp and box files without the Lisp reader, and reports what is wrong
-in them.")
+  (:documentation "Reads rule, grasp and box files without the Lisp reader, and reports what is
+wrong in them.")
   (:export
    ;; problems
    #:problem #:make-problem #:problem-severity #:problem-file #:problem-line #:problem-column
@@ -22,13 +22,12 @@ in them.")
    ;; text
    #:plainly #:plain-text #:define-printing
    ;; conditions
-   #:supergrip-error #:argument-error #:refuse-argument #:input-error #:input-error-problems #:input-error-consequence
-   #:syntax-error #:box-error #:knowledge-error #:knowledge-error-consequence
-   #:knowledge-warning    #:knowledge-warning-problems
-   #:retry
+   #:supergrip-error #:argument-error #:refuse-argument #:input-error #:input-error-problems
+   #:input-error-consequence #:syntax-error #:box-error #:knowledge-error
+   #:knowledge-error-consequence #:knowledge-warning #:knowledge-warning-problems #:retry
    ;; names and forms
-   #:with-row #:name-text #:name= #:name-in #:namep #:part-p #:canonical #:canonical-name #:form-text #:as-double
-   #:cut-text #:visible-text #:invisible-p #:code-text
+   #:with-row #:name-text #:name= #:name-in #:namep #:part-p #:canonical #:canonical-name
+   #:form-text #:as-double #:cut-text #:visible-text #:invisible-p #:code-text
    ;; reader
    #:source #:string-source #:stream-source #:source-line #:source-column #:source-name
    #:read-datum #:skip-blanks #:end-of-data #:read-all #:record-start-line
@@ -36,5 +35,6 @@ in them.")
    #:skip-to-record #:skip-record #:make-source #:part-place #:+mark+
    #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*
    ;; the tools of readers
-   #:next #:fail #:fail-at #:deeper #:start-record #:end-record #:note-place #:skip-mark #:push-token
-   #:token-number #:digits-end #:character-description #:source-token #:source-depth #:source-inside))
+   #:next #:fail #:fail-at #:deeper #:start-record #:end-record #:note-place #:skip-mark
+   #:push-token #:token-number #:digits-end #:character-description #:source-token #:source-depth
+   #:source-inside))

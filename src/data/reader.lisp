@@ -76,7 +76,7 @@ may have.  TRACK tells where each part of the record begins (see NOTE-PLACE)."
 ;;; Characters
 
 (defun too-long (source)
-  (fail source "the form that begins in line ~d is longer than ~d characters"
+  (fail source "the form that begins in line ~d is longer than ~d character~:p"
         (source-record-start-line source) *record-limit*))
 
 (defun refill (source)
@@ -388,13 +388,14 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
               (and (< i count) (char= (schar token i) #\.) (digit-at (1+ i))))))))
 
 (defun token-number (source count line column)
-  "Return the number that the first COUNT characters of the token of SOURCE spell, which begins at LINE
-and COLUMN.  Signals a SYNTAX-ERROR if they spell none, or one out of range."
+  "Return the number that the first COUNT characters of the token of SOURCE spell, which begins at
+LINE and COLUMN.  Signals a SYNTAX-ERROR if they spell none, or one out of range."
   (multiple-value-bind (number trouble) (parse-number (source-token source) count)
     (or number
         (let ((text (subseq (source-token source) 0 (min count 24))))
           (ecase trouble
-            (:length (fail-at source line column "a number of ~d characters; at most ~d are read"
+            (:length (fail-at source line column "a number of ~d character~:p; at most ~d ~
+                                                  ~:*~[~;is~:;are~] read"
                               count *number-limit*))
             (:range (fail-at source line column
                              "~a is out of range: numbers lie between 1e-300 and 1e300, or are 0"
@@ -405,7 +406,7 @@ and COLUMN.  Signals a SYNTAX-ERROR if they spell none, or one out of range."
 
 (defun token-name (source count line column)
   (when (> count (the fixnum *name-limit*))
-    (fail-at source line column "a name of ~d characters; at most ~d are read"
+    (fail-at source line column "a name of ~d character~:p; at most ~d ~:*~[~;is~:;are~] read"
              count *name-limit*))
   (let ((text (source-token source)))
     (when (and (= count 1) (char= (schar text 0) #\.))
@@ -467,7 +468,7 @@ Signals a SYNTAX-ERROR if FORM holds anything else, or too much of it."
   (let ((room *record-limit*))
     (labels ((walk (form depth)
                (when (minusp (decf room))
-                 (refuse-form "a form of more than ~d parts, or a circular one" *record-limit*))
+                 (refuse-form "a form of more than ~d part~:p, or a circular one" *record-limit*))
                (when (> depth *depth-limit*)
                  (refuse-form "lists nest deeper than ~d" *depth-limit*))
                (cond ((null form) nil)

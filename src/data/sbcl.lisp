@@ -1,5 +1,5 @@
-;;;; sbcl.lisp -- what the core needs of SBCL itself: atomic lists, floating point modes, backquotes,
-;;;; the heap.  Files are in files.lisp.
+;;;; sbcl.lisp -- what the core needs of SBCL itself: atomic lists, floating point modes,
+;;;; backquotes, the heap.  Files are in files.lisp.
 
 (in-package :supergrip-data)
 
@@ -124,7 +124,8 @@ words that are typed like variables."
 
 (defun debugger-p (environment name)
   "True if ENVIRONMENT is that of what is typed in the debugger, and NAME is no variable there.
-SBCL makes it the body of a function of the frame, in which the frame's variables are symbol macros."
+SBCL makes it the body of a function of the frame, in which the frame's variables are symbol
+macros."
   (flet ((of-frame-p (variable)
            (and (consp (cdr variable)) (consp (cddr variable))
                 (eq (third variable) 'sb-di:debug-var-value))))

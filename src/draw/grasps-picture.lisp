@@ -1,12 +1,12 @@
 ;;;; grasps-picture.lisp -- DRAW-GRASPS: the grasp modes, the paper's Figure 1.
 ;;;;
-;;;; Each grasp is tried on reference boxes until one can be held, and is drawn with the palm above: so
-;;;; a grasp that a user has added is drawn, too, from its data.
+;;;; Each grasp is tried on reference boxes until one can be held, and is drawn with the palm above:
+;;;; so a grasp that a user has added is drawn, too, from its data.
 
 (in-package :supergrip-draw)
 
-;;; Reference boxes.  Their sizes come from the numbers and dimensions in the grasp's conditions, and
-;;; then from all dimensions of the gripper: below, at and above each.
+;;; Reference boxes.  Their sizes come from the numbers and dimensions in the grasp's conditions,
+;;; and then from all dimensions of the gripper: below, at and above each.
 
 (defun numbers-of (form gripper)
   "Return the numbers above zero in FORM, the value of a dimension of GRIPPER for its name."

@@ -1,12 +1,14 @@
 ;;;; gripper-picture.lisp -- DRAW-GRIPPER: what the dimensions of a gripper measure.
 ;;;;
-;;;; Three views of one hand in one scale: along O, with opposed fingers; along N, with fingers side by
-;;;; side; and along A, with the third finger of the U-shape.  The boxes are chosen to suit the hand.
+;;;; Three views of one hand in one scale: along O, with opposed fingers; along N, with fingers side
+;;;; by side; and along A, with the third finger of the U-shape.  The boxes are chosen to suit the
+;;;; hand.
 
 (in-package :supergrip-draw)
 
 (defparameter +drawn-dimensions+
-  '("FINGER-LENGTH" "FINGER-DIST" "FINGER-SPREAD" "FINGER-WIDTH" "DIST-PINCH" "WIDTH-HAND" "REACH-U")
+  '("FINGER-LENGTH" "FINGER-DIST" "FINGER-SPREAD" "FINGER-WIDTH" "DIST-PINCH" "WIDTH-HAND"
+    "REACH-U")
   "The dimensions without which a gripper can't be drawn.")
 
 (defun need-dimensions (knowledge)
@@ -63,13 +65,15 @@
       (draw-palm-above (* -0.62 (size "FINGER-DIST")) (* 0.62 (size "FINGER-DIST")) base place)
       (dolist (finger fingers)
         (draw-whole-finger (loop for (x y) in finger collect (at x y))))
-      (draw-size (at (/ (size "FINGER-DIST") -2) base 0 -30) (at (/ (size "FINGER-DIST") 2) base 0 -30)
+      (draw-size (at (/ (size "FINGER-DIST") -2) base 0 -30)
+                 (at (/ (size "FINGER-DIST") 2) base 0 -30)
                  "FINGER-DIST" knowledge '(0 -1))
       (draw-size (at (- half) (second (second (second fingers))) -14) (at (- half) tip -14)
                  "FINGER-LENGTH" knowledge '(-1 0))
       (dolist (side '(-1 1))
         (draw-line (at (* side opening) bottom 0 34) (at (* side opening) bottom 0 56) "hidden"))
-      (draw-size (at (- opening) bottom 0 46) (at opening bottom 0 46) "DIST-PINCH" knowledge '(0 1))
+      (draw-size (at (- opening) bottom 0 46) (at opening bottom 0 46) "DIST-PINCH" knowledge
+                 '(0 1))
       (draw-palm-depth (size "PALM-DEPTH") tip place))))
 
 (defun draw-palm-depth (depth tip place)
@@ -134,9 +138,12 @@
                                    (* 1.2 (size "WIDTH-HAND")) (* 1.8 (size "FINGER-SPREAD"))))
                        (/ 240 (+ (* 3.1 length) (size "FINGER-WIDTH")))
                        (/ 280 (+ (* 1.6 (size "REACH-U")) (* 0.5 length))))))
-      (with-picture (1100 500 "Gripper" "Three views of a hand with three fingers, and what each of its
-dimensions measures: the distance of opposed bases, the length of a link, the opening; the spread of
-fingers side by side, the width of the hand, the least width of a face; and the reach of the thumb.")
+      (with-picture (1100 500 "Gripper"
+                     (format nil "Three views of a hand with three fingers, and what each of its~%~
+                                  dimensions measures: the distance of opposed bases, the length ~
+                                  of a link, the opening; the spread of~%~
+                                  fingers side by side, the width of the hand, the least width of ~
+                                  a face; and the reach of the thumb."))
         (draw-heading (format nil "What a gripper’s dimensions measure~@[: ~a~]"
                               (knowledge-model knowledge))
                       '("Lengths in cm, in one scale.  Palm and links are a diagram.")
@@ -150,7 +157,8 @@ fingers side by side, the width of the hand, the least width of a face; and the 
               do (draw-view caption draw x top scale knowledge))))))
 
 (defun draw-view (caption draw x top scale knowledge)
-  "Draw a frame at X with CAPTION, and in it what DRAW draws: 0 0 is in its middle at the height TOP."
+  "Draw a frame at X with CAPTION, and in it what DRAW draws: 0 0 is in its middle at the height
+TOP."
   (draw-rectangle x 72 352 416 "frame")
   (draw-text caption (list (+ x 12) 94) :class "bold")
   (funcall draw knowledge (lambda (a b) (list (+ x 174 (* scale a)) (- top (* scale b)))))

@@ -57,9 +57,9 @@
 ;;; Labels are asked for while a view is drawn, and placed when all of it is known.
 
 (defun ask-for-label (text point &key (class "plain") (away 8) optional leader toward)
-  "Have TEXT placed near POINT, or near one of a list of points, AWAY units or more from it, TOWARD a
-direction in the picture rather than others.  If it is OPTIONAL it is left out where there is no room close by; a LEADER joins it
-to the point if it is far."
+  "Have TEXT placed near POINT, or near one of a list of points, AWAY units or more from it, TOWARD
+a direction in the picture rather than others.  If it is OPTIONAL it is left out where there is no
+room close by; a LEADER joins it to the point if it is far."
   (push (list text (if (consp (first point)) point (list point))
               class away optional leader toward)
         *labels*))
@@ -82,7 +82,8 @@ to the point if it is far."
     (list (max x (min (first point) (+ x width))) (max y (min (second point) (+ y height))))))
 
 (defun leader-of (point place away)
-  "Return the line from POINT to a label at PLACE, or NIL if the label is so near that it needs none."
+  "Return the line from POINT to a label at PLACE, or NIL if the label is so near that it needs
+none."
   (let ((end (nearest-in point place)))
     (and (> (distance point end) (+ away 8))
          (list (along point end (/ 3 (distance point end))) end))))

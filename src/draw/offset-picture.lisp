@@ -39,8 +39,8 @@ whose top is at TOP."
           (list (* side (/ across 2)) (- knuckle length)))))
 
 (defun draw-dimension (a b text &key (side '(0 0)) leader)
-  "Draw a line with ticks between the points A and B, and TEXT at its middle moved by SIDE, with a LEADER
-if it is far."
+  "Draw a line with ticks between the points A and B, and TEXT at its middle moved by SIDE, with a
+LEADER if it is far."
   (let* ((length (max 1 (distance a b)))
          (across (list (* 4 (/ (- (second b) (second a)) length))
                        (* 4 (/ (- (first a) (first b)) length)))))

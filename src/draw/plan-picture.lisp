@@ -179,8 +179,8 @@ picture: in three dimensions and from three sides, to scale.  Lengths in cm.  Re
   (drawing ((need-plan plan)) (save-picture (plan-picture plan) file)))
 
 (defun draw-refinement (refinement file)
-  "Draw the grasp of REFINEMENT with its fingers where they are now, and rings where they were, into FILE, an
-SVG picture, as DRAW-PLAN does.  Returns FILE."
+  "Draw the grasp of REFINEMENT with its fingers where they are now, and rings where they were, into
+FILE, an SVG picture, as DRAW-PLAN does.  Returns FILE."
   (let ((plan (refinement-plan refinement)))
     (drawing (plan)
       (save-picture (candidate-picture (refinement-candidate refinement) plan refinement) file))))

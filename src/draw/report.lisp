@@ -49,10 +49,10 @@ says in which units.  Returns FILE."
     (if (box-name box) (box-text box) (format nil "A box, ~a" (box-text box)))))
 
 (defun times-text (kind radius axis &optional together)
-  "Return how much a grasp has of KIND, RADIUS times what is needed, AXIS being the limit, or all axes
-TOGETHER."
-  (format nil "~a: the grasp has ~a times what the task needs on ~:[the tightest axis, ~a~;all axes ~
-               together~]."
+  "Return how much a grasp has of KIND, RADIUS times what is needed, AXIS being the limit, or all
+axes TOGETHER."
+  (format nil "~a: the grasp has ~a times what the task needs on ~:[the tightest axis, ~a~;all ~
+               axes together~]."
           kind (index-text radius) together axis))
 
 (defun fingers-words (subject)
@@ -94,8 +94,8 @@ TOGETHER."
 (defun weak-text (kind radius)
   "Return what a RADIUS below 1 of KIND means, or NIL for one that is not below."
   (and radius (< radius 1)
-       (format nil "~a: ~a is below 1, so by the index, on its tightest axis, the grasp has less than ~
-                    the task may need." kind (index-text radius))))
+       (format nil "~a: ~a is below 1, so by the index, on its tightest axis, the grasp has less ~
+                    than the task may need." kind (index-text radius))))
 
 (defun together-text (plan)
   "Return what the best grasp of PLAN bears on all axes together, or NIL if no force is needed."
@@ -105,8 +105,9 @@ TOGETHER."
           ((minusp (strength-upper strength))
            (format nil "Together: ~a for the contacts." radius))
           (t (format nil "Together, and in any direction, the contacts bear ~a times the forces ~
-                          and torques asked for; they have the least to spare where the box is ~a.~@[ ~
-                          Their strength on each axis alone already makes sure of ~a times.~]"
+                          and torques asked for; they have the least to spare where the box is ~
+                          ~a.~@[ Their strength on each axis alone already makes sure of ~a ~
+                          times.~]"
                      radius (strength-worst strength) (sure-text strength))))))
 
 (defun put-meaning (plan)
@@ -116,8 +117,9 @@ TOGETHER."
       (markup
         (:p :class "soft"
             (say "The quality index Q compares the grasps of one task: higher is better.  It ~
-                  is neither a percentage nor a probability, and says nothing across tasks.  A radius ~
-                  of 1 is just enough, by the index, on the tightest axis alone.~@[  ~a~]~@[  ~a~]~@[  ~a~]"
+                  is neither a percentage nor a probability, and says nothing across tasks.  A ~
+                  radius of 1 is just enough, by the index, on the tightest axis alone.~@[  ~
+                  ~a~]~@[  ~a~]~@[  ~a~]"
                  (and (eq (plan-index plan) :paper) ; else what follows says it
                       (weak-text "Forces" (candidate-force-radius best)))
                  (weak-text "Velocities" (candidate-velocity-radius best))

@@ -1,9 +1,10 @@
 ;;;; scene.lisp -- a subject seen by a camera.
 ;;;;
-;;;; The box is convex, and hand and plates are outside it.  So what lies beyond a face that is turned
-;;;; away can't hide any of the box, and what lies beyond a face that is turned to the viewer can't be
-;;;; hidden by the box.  Painting the first, then the box, then the second, is exact.  The faces of the
-;;;; box are drawn as of glass, and what is behind them dashed, as in technical drawing.
+;;;; The box is convex, and hand and plates are outside it.  So what lies beyond a face that is
+;;;; turned away can't hide any of the box, and what lies beyond a face that is turned to the viewer
+;;;; can't be hidden by the box.  So what lies beyond faces that are turned away is painted first,
+;;;; then the box, then the rest.  This is exact.  The faces of the box are drawn as of glass, and
+;;;; what is behind them dashed, as in technical drawing.
 
 (in-package :supergrip-draw)
 

@@ -6,9 +6,9 @@
 (defstruct strength
   "What CANDIDATE really bears of its task, on all axes together: UPPER and LOWER, of its exact
 radius, MOTION, its worst one, WORST, the same in words, and SURE, its sure radius.  All are NIL if
-the task needs no force or the numbers are out of range; LOWER is if it is not proved.  SURE is if it is
-above UPPER: then the grasp's WRENCH promises more than its contacts can exert.  U-W is the paper's
-index of its forces."
+the task needs no force or the numbers are out of range; LOWER is if it is not proved.  SURE is if
+it is above UPPER: then the grasp's WRENCH promises more than its contacts can exert.  U-W is the
+paper's index of its forces."
   candidate upper lower motion worst sure u-w)
 
 (defun force-rows (candidate plan)

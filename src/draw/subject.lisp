@@ -4,17 +4,17 @@
 (in-package :supergrip-draw)
 
 (defstruct contact
-  "A finger's contact: FINGER, its name, the FACE it is on, its POSITION in cm, and PATH, the diagram of
-the finger from the palm to the position."
+  "A finger's contact: FINGER, its name, the FACE it is on, its POSITION in cm, and PATH, the
+diagram of the finger from the palm to the position."
   finger face position path)
 
 (defstruct subject
   "A box to be drawn, and a grasp of it if PALM, the face that the palm is over, is not NIL.
 LOW and HIGH are the corners of what is shown of it; GAP the length, in cm, from which all that is
 not to scale is made.  PALM-LOW and PALM-HIGH are the corners of the palm's plate.  NAMER returns
-the name of a face.  LOAD is the weight as text, or NIL for no weight to be drawn; it acts at MASS in the
-direction DOWN.  LABELLED is NIL if the grasp centre is to be drawn without words.  GHOSTS are the places
-where the fingers were before they were moved."
+the name of a face.  LOAD is the weight as text, or NIL for no weight to be drawn; it acts at MASS
+in the direction DOWN.  LABELLED is NIL if the grasp centre is to be drawn without words.  GHOSTS
+are the places where the fingers were before they were moved."
   size low high (gap 0) (blocked '()) (contacts '()) (centre '(0d0 0d0 0d0)) (palm nil)
   palm-low palm-high (namer #'face-name) (load nil) (mass '(0d0 0d0 0d0)) (down '(0d0 0d0 -1d0))
   (labelled t) (ghosts '()))
@@ -126,8 +126,8 @@ it, if that leaves the contacts apart from each other."
     (+ (* 0.08 (first sizes)) (* 0.13 (second sizes)))))
 
 (defun grasp-subject (candidate plan &rest options &key whole found &allow-other-keys)
-  "Return the subject of CANDIDATE, which is possible in PLAN.  If WHOLE, the whole box is shown.  FOUND are
-its contacts, if not those of the plan.  OPTIONS are other slots of the subject."
+  "Return the subject of CANDIDATE, which is possible in PLAN.  If WHOLE, the whole box is shown.
+FOUND are its contacts, if not those of the plan.  OPTIONS are other slots of the subject."
   (let* ((size (box-size (plan-box plan)))
          (palm (palm-face candidate))
          (found (or found (candidate-contacts candidate plan)))

@@ -1,8 +1,8 @@
 ;;;; svg.lisp -- pictures: a small layer of SVG over cl-who.
 ;;;;
 ;;;; A picture is made once, and then written alone or into a page.  What it looks like is in
-;;;; picture.css alone; light and dark are chosen by the reader's device.  Meaning is carried by form,
-;;;; hatching and words, never by colour alone.
+;;;; picture.css alone; light and dark are chosen by the reader's device.  Meaning is carried by
+;;;; form, hatching and words, never by colour alone.
 
 (in-package :supergrip-draw)
 
@@ -153,7 +153,8 @@ the mark-up of what it shows."
 
 (defmacro with-picture ((width height title description) &body body)
   "Return the picture of WIDTH x HEIGHT that BODY draws."
-  `(let ((*obstacles* '()) (*words* '()) (*areas* '()) (*strokes* '()) (*leaders* '()) (*labels* '()))
+  `(let ((*obstacles* '()) (*words* '()) (*areas* '()) (*strokes* '()) (*leaders* '())
+         (*labels* '()))
      (make-picture :width ,width :height ,height :title ,title :description ,description
                    :body (with-output-to-string (*out*) ,@body))))
 
@@ -186,8 +187,8 @@ the style and the patterns."
         (refuse-argument "~a is a directory; a file is wanted" (form-text file)))))
 
 (defun call-writing (file function)
-  "Call FUNCTION with a stream of UTF-8 text, and put what it wrote in the place of FILE: nobody sees
-a half of it, and a link that stands there is replaced, not followed."
+  "Call FUNCTION with a stream of UTF-8 text, and put what it wrote in the place of FILE: nobody
+sees a half of it, and a link that stands there is replaced, not followed."
   (let* ((path (merge-pathnames (path-of file)))
          (new (make-pathname :name (format nil "~a.new" (pathname-name path)) :defaults path))
          (done nil))

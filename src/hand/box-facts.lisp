@@ -1,7 +1,7 @@
 ;;;; box-facts.lisp -- facts of one's own: what a box says beyond its other keys.
 ;;;;
-;;;; The rules declare them by (INPUT ...).  A box is read without rules; so whether a fact is
-;;;; declared is asked when a plan is made.
+;;;; The rules declare them by (INPUT ...).  A box is read without rules, so it is a plan that
+;;;; checks whether the facts of its box are declared.
 
 (in-package :supergrip)
 
@@ -46,7 +46,7 @@
                (cond ((null face) (setf good nil))
                      ((member face faces)
                       (setf good (complain (value-spot row number place k)
-                                           "~a stands twice in one list of faces"
+                                           "~a occurs twice in one list of faces"
                                            (value-text *notation* element))))
                      (t (push face faces)))))
     (and good (make-face-list (reverse faces)))))
@@ -58,12 +58,14 @@
          (words (mapcar #'words-in (if list (butlast elements) elements)))
          (names (loop for part in words append part)))
     (cond ((or (null words) (member '() words))
-           (refuse-fact row number form "facts are ~a" (key-takes row)))
+           (refuse-fact row number form "~a takes ~a" (key-name *notation* row)
+                        (key-takes row)))
           ((find-if #'loose-surface-p names)
-           (refuse-fact row number form "faces go in a list of their own, at the end: ~a"
+           (refuse-fact row number form "its faces belong in a list of their own, at the end: ~a"
                         (value-text *notation* (list-surfaces names list))))
           ((some #'negation-p names)
-           (refuse-fact row number form "what a box does not say is false, so leave it out"))
+           (refuse-fact row number form "a fact can't be negated; leave it out, since what a box ~
+                                       does not say is false"))
           (t
            (let ((face-list (fact-faces list row number (length words))))
              (and face-list
@@ -78,7 +80,8 @@
           for key = (and fact (format nil "~a ~d" (box-fact-words fact)
                                       (face-list-mask (box-fact-face-list fact))))
           if (and key (gethash key said))
-            do (complain (value-spot row number) "~a is said twice" (value-text *notation* form))
+            do (complain (value-spot row number) "the fact ~a is given twice"
+                         (value-text *notation* form))
           else if key
             collect fact and do (setf (gethash key said) t))))
 
@@ -121,7 +124,8 @@ name of the file to declare them in."
                                           (and (eq *notation* :lisp) (null (%box-line box))))))))))
 
 (defun refuse-undeclared (fact rulebase rules typed)
-  "Complain of FACT, which RULEBASE, of the file RULES, does not declare, and which was TYPED or read."
+  "Complain of FACT, which RULEBASE, of the file RULES, does not declare, and which was TYPED or
+read."
   (let* ((words (cut-text (box-fact-words fact)))
          (count (face-list-count (box-fact-face-list fact)))
          (text (value-text *notation* (fact-list fact #'canonical-name)))
@@ -137,10 +141,10 @@ name of the file to declare them in."
                      (input-line words count) rules
                      (and typed (input-line words count))))
           ((declared-p predicate)
-           (complain spot "~a: ~a takes ~[no faces~;1 face~:;~:*~d faces~], as ~a in ~a says; here ~
-                           it has ~[none~:;~:*~d~]"
-                     text words (predicate-arity predicate)
-                     (form-text (input-declaration-form (predicate-given predicate))) rules count))
+           (complain spot "~a: ~a takes ~[no faces~;1 face~:;~:*~d faces~], not ~[none~:;~:*~d~]; ~
+                           ~a declares it so in ~a"
+                     text words (predicate-arity predicate) count
+                     (form-text (input-declaration-form (predicate-given predicate))) rules))
           (t
-           (complain spot "~a: ~a is no fact of a box's own: the other keys, and the gripper, ~
-                           decide it" text words)))))
+           (complain spot "~a: ~a can't be stated as a fact: it follows from the box's other ~
+                           keys and the gripper" text words)))))

@@ -1,7 +1,6 @@
 ;;;; box-for-gripper.lisp -- a box in N or kg becomes one in the finger forces of a gripper.
 ;;;;
-;;;; A box is read without a gripper; so whether its finger force is known is asked when a plan
-;;;; is made.
+;;;; A box is read without a gripper, so it is a plan that checks whether the finger force is known.
 
 (in-package :supergrip)
 
@@ -63,8 +62,8 @@ times as great; NIL if one is then out of range."
                          (make-units (units-length units) (units-force units) force
                                      (units-spot units))
                          (/ (units-finger units) force))
-        (refuse-box-of box "its forces are out of range, from 1e-300 to 1e300, in finger forces of ~
-                            ~a N"
+        (refuse-box-of box "in finger forces of ~a N its forces are out of range: they must lie ~
+                            between 1e-300 and 1e300"
                        (number-text force)))))
 
 (defun check-margin (margin)
@@ -72,12 +71,13 @@ times as great; NIL if one is then out of range."
   (let ((number (and (realp margin) (as-double margin))))
     (if (and number (plusp number))
         (exact-decimal number)
-        (refuse-argument "margin is ~a; it is a number above 0, by which the weight and absolute ~
-                          needs are multiplied" (form-text margin)))))
+        (refuse-argument "margin is ~a, but must be a number above 0; the weight and absolute ~
+                          needs are multiplied by it" (form-text margin)))))
 
 (defun box-with-margin (box margin)
   "Return BOX with its weight, and its forces needed if they are absolute, MARGIN times as great.
 Signals a BOX-ERROR if they are then out of range."
   (or (box-with-forces box (%box-units box) (check-margin margin))
-      (refuse-box-of box "its forces are out of range, from 1e-300 to 1e300, with a margin of ~a"
+      (refuse-box-of box "with a margin of ~a its forces are out of range: they must lie between ~
+                          1e-300 and 1e300"
                      (number-text margin))))

@@ -1,7 +1,7 @@
 ;;;; box-keys.lisp -- the keys of a box description, one row each.
 ;;;;
-;;;; A row says what a key takes.  Parsing, both notations, messages and what EXPLAIN-BEST varies follow
-;;;; from it.
+;;;; A row says what a key takes.  Parsing, both notations, messages and what EXPLAIN-BEST varies
+;;;; follow from it.
 
 (in-package :supergrip)
 
@@ -19,12 +19,12 @@
   :UNITS         the names of two units, of length and of force
   :MASS          a number from 0, in kg, in the place of the weight
   :DATA          anything.
-TAKES says so in words, EXAMPLE is a list of what may follow.  OPTIONAL is true if a box may lack it.
-READER is a function of a box; SLOT, a keyword, names the slot of its own, if it has one.  WORDS name a value that may be
-varied, \"the weight\", NIL if none may.  MEASURE says what its numbers are: :LENGTH, :FORCE,
-:WRENCH, three forces and three torques, or NIL for what has no unit; TAKES then has ~a for the
-units.  ABSOLUTE is what it takes of a box with absolute units, if that is something else.
-INSTEAD is the key in whose place it stands."
+TAKES says so in words, EXAMPLE is a list of what may follow.  OPTIONAL is true if a box may lack
+it.  READER is a function of a box; SLOT, a keyword, names the slot of its own, if it has one.
+WORDS name a value that may be varied, \"the weight\", NIL if none may.  MEASURE says what its
+numbers are: :LENGTH, :FORCE, :WRENCH, three forces and three torques, or NIL for what has no unit;
+TAKES then has ~a for the units.  ABSOLUTE is what it takes of a box with absolute units, if that is
+something else.  INSTEAD is the key in whose place it stands."
   key json type takes example optional slot reader words measure absolute instead)
 
 (defvar *box-keys* '() "The rows that DEFINE-BOX-KEY has defined, in order.")
@@ -35,9 +35,10 @@ INSTEAD is the key in whose place it stands."
 (defmacro define-box-key (key type takes example
                           &key slot optional words measure absolute instead
                             (json (substitute #\_ #\- (string-downcase key))))
-  "Define the KEY, a keyword, of box descriptions, which takes what TYPE says (see BOX-KEY), TAKES in
-words; EXAMPLE is a list of what may follow it.  SLOT, a keyword, names its own slot; without one the value
-is among the others of the box, for BOX-VALUE.  MEASURE, ABSOLUTE and INSTEAD: see BOX-KEY."
+  "Define the KEY, a keyword, of box descriptions, which takes what TYPE says (see BOX-KEY), TAKES
+in words; EXAMPLE is a list of what may follow it.  SLOT, a keyword, names its own slot; without one
+the value is among the others of the box, for BOX-VALUE.  MEASURE, ABSOLUTE and INSTEAD: see
+BOX-KEY."
   `(add-box-key
     (make-box-key :key ,key :json ,json :type ',type :takes ,takes :example ',example
                   :optional ,optional :words ,words :slot ,slot :measure ,measure
@@ -109,8 +110,8 @@ makes of each number; NIL if it makes NIL of one."
         value)))
 
 (defun box-value (box key)
-  "Return what BOX gives for KEY, a symbol or a string: as the description has it, or NIL.  For keys that
-DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles, facts are lists of
+  "Return what BOX gives for KEY, a symbol or a string: as the description has it, or NIL.  For keys
+that DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles, facts are lists of
 strings, as are units."
   (let ((row (find (and (or (symbolp key) (stringp key)) (string-upcase key)) *box-keys*
                    :key #'box-key-key :test #'string=)))
@@ -161,8 +162,9 @@ strings, as are units."
     (values "a list such as ((SIZE 12 2 2) (WEIGHT 0.2) ...)" ")")))
 
 (defgeneric spot-in-clause (notation clause row numbers)
-  (:documentation "Return where in a description a part of the clause numbered CLAUSE, that of the key
-ROW, begins: NUMBERS are that of a value and of an element of it; without any, the clause itself.")
+  (:documentation "Return where in a description a part of the clause numbered CLAUSE, that of the
+key ROW, begins: NUMBERS are that of a value and of an element of it; without any, the clause
+itself.")
   (:method (notation clause row numbers)
     (declare (ignore notation row))
     (if numbers (list* clause (1+ (first numbers)) (rest numbers)) (list clause))))
@@ -195,7 +197,8 @@ ROW, begins: NUMBERS are that of a value and of an element of it; without any, t
 
 ;;; Where a part stands: for the reports, a list of numbers that PART-PLACE understands.
 
-(defvar *path* '() "Where in its record the description being checked is: '() or inside QUOTE and SETQ.")
+(defvar *path* '() "Where in its record the description being checked is: '() or inside QUOTE and
+SETQ.")
 (defvar *clause* 0 "The number, from 0, of the clause being checked.")
 
 (defun clause-spot ()
@@ -203,8 +206,8 @@ ROW, begins: NUMBERS are that of a value and of an element of it; without any, t
   (append *path* (spot-in-clause *notation* *clause* nil '())))
 
 (defun value-spot (row &rest numbers)
-  "Return where a part of the value of the key ROW in the clause being checked begins: as NUMBERS say, a
-value, and an element of that."
+  "Return where a part of the value of the key ROW in the clause being checked begins: as NUMBERS
+say, a value, and an element of that."
   (append *path* (spot-in-clause *notation* *clause* row numbers)))
 
 ;;; Values
@@ -221,8 +224,8 @@ value, and an element of that."
     (and number (or (null least) (>= number least)) (or (null most) (<= number most)) number)))
 
 (defun number-list (row list count least most values &rest spot)
-  "Return LIST, COUNT numbers from LEAST to MOST, NIL for no bound, as an array of doubles, or complain.  SPOT are the
-numbers of the place of LIST among VALUES, for VALUE-SPOT."
+  "Return LIST, COUNT numbers from LEAST to MOST, NIL for no bound, as an array of doubles, or
+complain.  SPOT are the numbers of the place of LIST among VALUES, for VALUE-SPOT."
   (let ((numbers (make-array count :element-type 'double-float))
         (place 0))
     (dolist (value (and (listp list) list))
@@ -238,8 +241,8 @@ numbers of the place of LIST among VALUES, for VALUE-SPOT."
         (refuse-value row values))))
 
 (defgeneric parse-values (type row values)
-  (:documentation "Return the value of the key ROW, which takes what TYPE says, that VALUES, the rest of
-its clause, give.  NIL after a complaint."))
+  (:documentation "Return the value of the key ROW, which takes what TYPE says, that VALUES, the
+rest of its clause, give.  NIL after a complaint."))
 
 (defmethod parse-values ((type (eql :text)) row values)
   (cond ((and values (null (rest values)) (nothing-p *notation* (first values))) nil)
@@ -322,7 +325,8 @@ its clause, give.  NIL after a complaint."))
     (and good set)))
 
 (defun key-value (row values)
-  "Return the value of the key ROW that VALUES, the rest of its clause, give.  NIL after a complaint."
+  "Return the value of the key ROW that VALUES, the rest of its clause, give.  NIL after a
+complaint."
   (if (listp values)
       (parse-values (box-key-type row) row values)
       (refuse-value row values)))

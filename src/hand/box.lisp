@@ -7,10 +7,10 @@
 
 (defstruct (box (:conc-name %box-) (:constructor %make-box) (:copier nil) (:predicate box-p))
   "A box and what is to be done with it.  SIZE along X Y Z in cm; WEIGHT in finger forces;
-FRICTION the coefficient u; SOFT-FRICTION v, that of the soft finger's torque, in cm; CONSTRAINED a set of faces;
-FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z; FACTS a list of BOX-FACTs.
-DOWN is the unit vector of gravity, MASS-CENTRE the centre of mass from the box centre; PLAIN is true if
-these are -Z and the box centre.
+FRICTION the coefficient u; SOFT-FRICTION v, that of the soft finger's torque, in cm; CONSTRAINED a
+set of faces; FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z; FACTS a list of
+BOX-FACTs.  DOWN is the unit vector of gravity, MASS-CENTRE the centre of mass from the box centre;
+PLAIN is true if these are -Z and the box centre.
 UNITS are those that its description counts in, NIL for cm and finger forces.  Of a box in N, or
 whose mass is given, a finger force is 1 N until a plan knows the gripper: see BOX-FOR-GRIPPER."
   (name nil :read-only t)

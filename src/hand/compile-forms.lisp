@@ -8,9 +8,10 @@
 ;;;; results, until another program is run.  What was already computed on every way to a step is not
 ;;;; computed again.
 ;;;;
-;;;; Where a number comes from must be known before the closure that reads it, the next closure
-;;;; before the one that calls it.  So code is written first, as functions from the next closure to
-;;;; the closure of a step, and linked afterwards, from its end.
+;;;; A closure can be made only when its registers and the next closure are known.  The registers
+;;;; become known from the beginning of a chain on, the next closures from its end on.  So each step
+;;;; first becomes a function from the next closure to its own.  These functions are linked
+;;;; afterwards, from the end.
 
 (in-package :supergrip)
 
@@ -116,8 +117,8 @@ is in none yet."
   (cdr (assoc (cons operator operands) (code-operations code) :test #'equal)))
 
 (defun write-operands (nodes code)
-  "Write NODES, one or two, and return the operand of each: the register that will hold its number, or
-the inner operation that gives it (see CLOSURE-ON)."
+  "Write NODES, one or two, and return the operand of each: the register that will hold its number,
+or the inner operation that gives it (see CLOSURE-ON)."
   (loop for node in nodes
         collect (or (and (eq (node-kind node) :operation)
                          ;; The same number twice, as in a square, is computed once.
@@ -127,8 +128,8 @@ the inner operation that gives it (see CLOSURE-ON)."
                     (write-number node code))))
 
 (defun write-inner-operation (operation code)
-  "Write the arguments of OPERATION, an operator and nodes, and return its operand; NIL if it can't be
-inside another operation."
+  "Write the arguments of OPERATION, an operator and nodes, and return its operand; NIL if it can't
+be inside another operation."
   (destructuring-bind (operator . nodes) operation
     (when (arithmetic-inner operator)
       (let ((from (loop for node in nodes collect (write-number node code))))

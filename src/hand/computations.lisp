@@ -1,9 +1,9 @@
 ;;;; computations.lisp -- numbers that a function computes of other numbers, and keeps for a while.
 ;;;;
-;;;; What forms can't say, such as what contacts can exert, is a computation.  It takes a thousand times
-;;;; as long as a form, and the same numbers come again.  So it has a table of bounded size, in which a
-;;;; result takes the place of another one: no list grows, and no lock is needed, since an entry never
-;;;; changes once it is there.
+;;;; What forms can't say, such as what contacts can exert, is a computation.  It takes a thousand
+;;;; times as long as a form, and the same numbers come again.  So it has a table of bounded size,
+;;;; in which a new result replaces an old one.  No list grows.  No lock is needed, since an entry
+;;;; never changes once it is there.
 
 (in-package :supergrip)
 
@@ -12,9 +12,9 @@
 
 (defstruct (computation (:copier nil))
   "COUNT numbers that FUNCTION, of a vector of doubles, returns as another, or NIL if they have no
-value.  Of the numbers that it takes, NUMBERS, those at PLACES vary.  RISING are those PLACES with which
-the results never fall.  COMPONENTS has an object for each result, for curves.  KEPT holds entries:
-what varies, then the results, if there are any."
+value.  Of the numbers that it takes, NUMBERS, those at PLACES vary.  RISING are those PLACES with
+which the results never fall.  COMPONENTS has an object for each result, for curves.  KEPT holds
+entries: what varies, then the results, if there are any."
   (name nil :read-only t) (function nil :type function :read-only t)
   (count 0 :type fixnum :read-only t) (numbers nil :read-only t)
   (places '() :type list :read-only t) (rising '() :type list :read-only t)
@@ -62,8 +62,8 @@ what varies, then the results, if there are any."
     (and entry (same-numbers-p entry registers from) entry)))
 
 (defun keep-entry (kept place entry)
-  "Keep ENTRY at PLACE of KEPT; what was there goes to the place beside it, so that a plan may ask for two
-results of one place again and again.  Return ENTRY."
+  "Keep ENTRY at PLACE of KEPT; what was there goes to the place beside it, so that a plan may ask
+for two results of one place again and again.  Return ENTRY."
   (declare (type simple-vector kept))
   (let ((old (svref kept place)))
     (when old (keep-in kept (neighbour-place place) old))
@@ -83,8 +83,8 @@ results of one place again and again.  Return ENTRY."
           key))))
 
 (defun computation-step (computation next from to)
-  "Return the closure that puts the results of COMPUTATION, of the numbers in the registers FROM, into
-those from TO, and calls NEXT.  It returns NIL if they have no value."
+  "Return the closure that puts the results of COMPUTATION, of the numbers in the registers FROM,
+into those from TO, and calls NEXT.  It returns NIL if they have no value."
   (declare (type register-vector from) (type register to) (function next))
   (let ((kept (computation-kept computation)) (count (computation-count computation))
         (width (length from)))

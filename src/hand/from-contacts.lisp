@@ -1,8 +1,8 @@
-;;;; from-contacts.lisp -- parts of a grasp that are derived: its offset from how far the hand reaches,
-;;;; its WRENCH and TWIST from its contacts.
+;;;; from-contacts.lisp -- parts of a grasp that are derived: its offset from how far the hand
+;;;; reaches, its WRENCH and TWIST from its contacts.
 ;;;;
-;;;; WRENCH FROM-CONTACTS gives twelve entries: along and about N O A, then the same against them, since
-;;;; gravity has one direction.  Contacts are given about the grasp centre.
+;;;; WRENCH FROM-CONTACTS gives twelve entries: along and about N O A, then the same against them,
+;;;; since gravity has one direction.  Contacts are given about the grasp centre.
 
 (in-package :supergrip)
 
@@ -13,8 +13,8 @@ PALM, CONTACTS as PARSE-CONTACTS returns them, and OFFSET, a node of six, in SCO
 
 ;;; Words in place of forms: one row each
 
-(defvar *part-words* '() "Lists of a key, a word that may be its value, what it gives, and a function
-of a placement and the form that returns the node, or NIL after a complaint.")
+(defvar *part-words* '() "Lists of a key, a word that may be its value, what it gives, and a
+function of a placement and the form that returns the node, or NIL after a complaint.")
 
 (defmacro define-part-word ((key word) gives (placement form) &body body)
   "Let WORD be a value of KEY of a grasp; BODY returns its node.  GIVES says what it is, for
@@ -90,8 +90,8 @@ DESCRIBE-GRASP."
                                  (pop others)))))
 
 (defun computed-node (name count function nodes form &optional rising)
-  "Return the node of the COUNT numbers that FUNCTION computes of those of NODES, a vector; NIL if one
-of them is NIL.  They never fall as one of the nodes RISING rises."
+  "Return the node of the COUNT numbers that FUNCTION computes of those of NODES, a vector; NIL if
+one of them is NIL.  They never fall as one of the nodes RISING rises."
   (unless (member nil nodes)
     (flet ((varies-p (node) (not (constant-p node))))
       (let* ((varying (remove-if-not #'varies-p nodes))
@@ -128,7 +128,8 @@ of them is NIL.  They never fall as one of the nodes RISING rises."
                    form (list u v))))
 
 (defun grip-of (numbers normals)
-  "Return the grip of u, v and the places of fingers in NUMBERS, three each, with the inward NORMALS."
+  "Return the grip of u, v and the places of fingers in NUMBERS, three each, with the inward
+NORMALS."
   (declare (type numbers numbers))
   (let ((grip (make-grip (length normals) (aref numbers 0) (aref numbers 1))))
     (loop for normal of-type three in normals
@@ -157,8 +158,8 @@ of them is NIL.  They never fall as one of the nodes RISING rises."
                      form))))
 
 (defun mobility-of (numbers normals approach)
-  "Return the mobility, a vector of six, for NUMBERS: how far the palm's face is, a finger's length, the
-distance of the bases, and the places of the fingers, three each."
+  "Return the mobility, a vector of six, for NUMBERS: how far the palm's face is, a finger's length,
+the distance of the bases, and the places of the fingers, three each."
   (declare (type numbers numbers))
   (coerce (mobility (loop for place from 3 below (length numbers) by 3
                           collect (subseq numbers place (+ place 3)))
@@ -193,34 +194,33 @@ distance of the bases, and the places of the fingers, three each."
                        ((/= 1 (count axis entries :key #'car))
                         (return (complain value "the reach along ~a is given twice" name)))
                        ((and (realp reach) (not (plusp reach)))
-                        (return (complain value "the reach along ~a is ~a; it is a length above 0"
+                        (return (complain value "the reach along ~a is ~a, but must be above 0"
                                           name (form-text reach)))))
               finally (return entries)))))
 
 (defun side-reached (axis placement)
-  "Return the grasp face that the hand comes over along AXIS, or complain: that of the palm, or the one
-used."
+  "Return the grasp face that the hand comes over along AXIS, or complain: that of the palm, or the
+one used."
   (let* ((faces (list (* 2 axis) (1+ (* 2 axis)))) (names (pair-names axis))
          (used (intersection faces (placement-used placement))))
     (cond ((find (placement-palm placement) faces))
           ((= 1 (length used)) (first used))
-          (t (complain *form* "the reach along ~a: ~:[neither ~a nor ~a is~;both ~a and ~a are~] used, ~
-                               so the hand comes over neither; leave ~a out"
-                       (svref +axis-names+ axis) used (first names) (second names)
-                       (svref +axis-names+ axis))))))
+          (t (complain *form* "the hand does not come over ~a or ~a, since ~:[neither is~;both ~
+                               are~] used; leave the reach along ~a out"
+                       (first names) (second names) used (svref +axis-names+ axis))))))
 
 (defun finger-reach-form (axis placement)
-  "Return the form of the offset along AXIS that the links of two opposed fingers leave, or complain.
-The outer link lies along the face; the inner one adds depth where the box is narrower than the
-distance between the bases.  Source: the paper, OFFSET of PINCH-2-PARALLEL."
+  "Return the form of the offset along AXIS that the links of two opposed fingers leave, or
+complain.  The outer link lies along the face; the inner one adds depth where the box is narrower
+than the distance between the bases.  Source: the paper, OFFSET of PINCH-2-PARALLEL."
   (let* ((faces (remove-duplicates (mapcar #'first (placement-contacts placement))))
          (pairs (loop for other below 3
                       when (and (/= other axis)
                                 (subsetp (list (* 2 other) (1+ (* 2 other))) faces))
                         collect other)))
     (if (/= 1 (length pairs))
-        (complain *form* "the reach along ~a: FROM-FINGERS is that of fingers on two opposite faces ~
-                          beside it; write a length"
+        (complain *form* "FROM-FINGERS along ~a needs fingers on two opposite faces of one other ~
+                          axis; write a length instead"
                   (svref +axis-names+ axis))
         (let ((closing (distance-form (first pairs))))
           `(:let* ((:r (:/ (:- ,closing :finger-dist) 2))

@@ -8,8 +8,8 @@
 
 (defparameter +grasp-keys+
   '("USED-SURFACES" "CONDITIONS" "OFFSET" "REACH" "WRENCH" "TWIST" "CONTACTS" "PALM")
-  "The keys of a grasp.  REACH may stand in place of OFFSET; WRENCH and TWIST may then be absent.  The
-last two may be absent.")
+  "The keys of a grasp.  REACH may stand in place of OFFSET; WRENCH and TWIST may then be absent.
+The last two may be absent.")
 
 (defun begins-entry-p (part &optional (keys +grasp-keys+))
   "True if PART is one of KEYS, or a list that begins with one."

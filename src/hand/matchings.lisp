@@ -88,7 +88,8 @@ order of the faces; O follows."
 
 (defun turned (matching turn)
   "Return MATCHING after a TURN of the grasp, a vector: grasp face i takes the box face of TURN[i]."
-  (let ((faces (map 'simple-vector (lambda (grasp-face) (svref (matching-faces matching) grasp-face)) turn)))
+  (let ((faces (map 'simple-vector
+                    (lambda (grasp-face) (svref (matching-faces matching) grasp-face)) turn)))
     (find faces +matchings+ :key #'matching-faces :test #'equalp)))
 
 (defparameter +turns+

@@ -4,7 +4,8 @@
 
 (defun decimal-exponent (exact)
   "Return the E for which EXACT, a rational above 0, is at least 10^E and below 10^(E+1)."
-  (let ((exponent (floor (* (- (integer-length (numerator exact)) (integer-length (denominator exact)))
+  (let ((exponent (floor (* (- (integer-length (numerator exact))
+                               (integer-length (denominator exact)))
                             0.30103d0))))
     (loop while (>= exact (expt 10 (1+ exponent))) do (incf exponent))
     (loop while (< exact (expt 10 exponent)) do (decf exponent))
@@ -35,14 +36,15 @@ rounded to DIGITS significant digits; M ends in no zero."
             (t (concatenate 'string "0." (zeros (- point)) digits))))))
 
 (defun number-text (number &optional (digits 4))
-  "Return NUMBER for a report: DIGITS significant digits at most, but all of those before the point of
-a number up to a million."
+  "Return NUMBER for a report: DIGITS significant digits at most, but all of those before the point
+of a number up to a million."
   (let ((size (abs number)))
     (cond ((zerop number) "0")
           ((and (floatp size) (> size most-positive-double-float)) "more than any number")
           (t (multiple-value-bind (whole exponent)
                  (rounded-decimal (rational size) (if (< size 1d7)
-                                                      (max digits (1+ (decimal-exponent (rational size))))
+                                                      (max digits
+                                                           (1+ (decimal-exponent (rational size))))
                                                       digits))
                (plain-text "~:[~;-~]~a" (minusp number) (decimal-text whole exponent)))))))
 

@@ -1,12 +1,12 @@
 ;;;; operators.lisp -- the operators on numbers and the comparisons: one row each.
 ;;;;
 ;;;; All numbers live in one array of doubles, the registers.  An operator on some of them is a
-;;;; closure that reads its registers, writes one, and calls the next closure: nothing is boxed.  Where
-;;;; an argument is a sum, a difference or a product, the closure computes it too, so that one call
-;;;; does two operations.
+;;;; closure that reads its registers, writes one, and calls the next closure: nothing is boxed.
+;;;; Where an argument is a sum, a difference or a product, the closure computes it too, so that one
+;;;; call does two operations.
 ;;;;
-;;;; No register ever holds an infinity or a NaN: a closure that would write one ends its chain, which
-;;;; then returns NIL.  So results do not depend on the float traps of the caller.
+;;;; No register ever holds an infinity or a NaN: a closure that would write one ends its chain,
+;;;; which then returns NIL.  So results do not depend on the float traps of the caller.
 
 (in-package :supergrip)
 
@@ -19,7 +19,8 @@
 (defconstant +u+ 0 "The register of U.")
 (defconstant +v+ 1 "The register of V.")
 (defconstant +distances+ 2 "The first of the registers of the distances along N, O, A.")
-(defconstant +blocked+ 5 "The first of six registers, 1 for a grasp-face whose face is constrained.")
+(defconstant +blocked+ 5 "The first of six registers, 1 for a grasp-face whose face is
+constrained.")
 (defconstant +inputs-end+ 11 "The first register after the inputs.")
 
 ;;; The table
@@ -37,9 +38,9 @@ a complaint."
   "An operator on numbers.  LEAST and MOST (NIL: any) count its arguments; FIRST is the number that
 stands before a single argument, or NIL.  STEP makes its closure, from the next closure, the
 register to write and the operands to read; INNER is what the operator is called in operands, or NIL
-(see CLOSURE-ON).  BOUNDS puts the least and the greatest of what it gives on intervals into another,
-or is NIL: see BOUNDS-FUNCTION.  SLOPE is a form, or NIL: see DEFINE-OPERATOR.  KIND is NIL, :SYMMETRIC
-or :SELECTIVE."
+(see CLOSURE-ON).  BOUNDS puts the least and the greatest of what it gives on intervals into
+another, or is NIL: see BOUNDS-FUNCTION.  SLOPE is a form, or NIL: see DEFINE-OPERATOR.  KIND is
+NIL, :SYMMETRIC or :SELECTIVE."
   (least 1 :type fixnum :read-only t) (most nil :type (or null fixnum) :read-only t)
   (first nil :type (or null double-float) :read-only t)
   (inner nil :type symbol :read-only t) (step nil :type function :read-only t)
@@ -48,9 +49,9 @@ or :SELECTIVE."
 
 (defstruct (comparison (:include operator (gives '(:test)) (parse 'parse-prefix-comparison)))
   "A comparison of two numbers.  TEST is a function of them.  STEP makes its closure, from the
-closures to call next if it holds and if it does not, and the operands, which give the two numbers.  For texts, OPPOSITE names what
-holds where it does not, and MIRROR the comparison that says the same of the numbers exchanged, or
-they are NIL."
+closures to call next if it holds and if it does not, and the operands, which give the two numbers.
+For texts, OPPOSITE names what holds where it does not, and MIRROR the comparison that says the same
+of the numbers exchanged, or they are NIL."
   (test nil :type function :read-only t) (step nil :type function :read-only t)
   (opposite nil :read-only t) (mirror nil :read-only t))
 
@@ -74,14 +75,14 @@ they are NIL."
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter +inner-operators+ '(+ - *)
-    "Functions that a closure does itself on two registers, before what it is for.  What they give is
-not finite if one of their arguments is not."))
+    "Functions that a closure computes itself of two registers, before its own operation.  Their
+result is not finite if one of their arguments is not."))
 
 (defmacro closure-on ((registers checked &rest bindings) &body body)
   "Return a closure of REGISTERS that runs BODY with the numbers of operands.  Each of BINDINGS is a
-variable and a place that holds its operand: a register, or a list of one of +INNER-OPERATORS+ and two
-registers.  A closure is compiled for each.  If CHECKED is true, it returns NIL where an inner operator
-gives no finite number."
+variable and a place that holds its operand: a register, or a list of one of +INNER-OPERATORS+ and
+two registers.  A closure is compiled for each.  If CHECKED is true, it returns NIL where an inner
+operator gives no finite number."
   (if (null bindings)
       `(lambda (,registers)
          (declare (type registers ,registers))
@@ -181,8 +182,8 @@ turn, and the order of many is all one."
                        (funcall ,next ,registers))))))))))
 
 (defmacro define-comparison (name (x y) test &key opposite mirror)
-  "Define NAME as a comparison, which holds if TEST is true of the doubles X and Y.  OPPOSITE and MIRROR
-are for texts: see COMPARISON."
+  "Define NAME as a comparison, which holds if TEST is true of the doubles X and Y.  OPPOSITE and
+MIRROR are for texts: see COMPARISON."
   (with-closure-names (then else a b registers)
     `(add-operator
       (make-comparison

@@ -1,4 +1,5 @@
-;;;; preliminary-assertions.lisp -- the preliminary assertions: what is known of a box before any rule runs.
+;;;; preliminary-assertions.lisp -- the preliminary assertions: what is known of a box before any
+;;;; rule runs.
 ;;;;
 ;;;; One row each.  The rule base, the checker, HOW and WHY-NOT follow from the rows.
 
@@ -6,10 +7,11 @@
 
 (defstruct (input-row (:constructor make-input-row (name arity dimension assert note
                                                                numbers)))
-  "A preliminary assertion: its NAME, a string; how many faces its lists have, ARITY; the name of the
-gripper's DIMENSION that is its threshold, or NIL; ASSERT, a function of a memory, the predicate, a
-box and the threshold that remembers all that holds; NOTE, one of a face list, a box and the
-threshold that returns why that holds, a sentence; NUMBERS, those that its test names itself."
+  "A preliminary assertion: its NAME, a string; how many faces its lists have, ARITY; the name of
+the gripper's DIMENSION that is its threshold, or NIL; ASSERT, a function of a memory, the
+predicate, a box and the threshold that remembers all that holds; NOTE, one of a face list, a box
+and the threshold that returns why that holds, a sentence; NUMBERS, those that its test names
+itself."
   (name "" :type string :read-only t) (arity 0 :read-only t) (dimension nil :read-only t)
   (assert nil :type function :read-only t) (note nil :type function :read-only t)
   (numbers '() :type list :read-only t))
@@ -37,10 +39,11 @@ stand for in TEST and PHRASE; those at the end may be left out:
   (:FACE face box)      each of the six faces
   (:BOX box)            the box itself.
 THRESHOLD stands for the gripper's DIMENSION, a string, if there is one.  TEST is a form, true where
-the assertion holds; PHRASE a form that returns why, a string.  Knowledge that is loaded from then on
-has the assertion."
+the assertion holds; PHRASE a form that returns why, a string.  Knowledge that is loaded from then
+on has the assertion."
   (let* ((places (ecase kind
-                   (:pair (list (make-face-list '(0 1)) (make-face-list '(2 3)) (make-face-list '(4 5))))
+                   (:pair (list (make-face-list '(0 1)) (make-face-list '(2 3))
+                                (make-face-list '(4 5))))
                    (:face (loop for face below 6 collect (make-face-list (list face))))
                    (:box '(0))))
          (values (ecase kind
@@ -97,7 +100,8 @@ has the assertion."
 
 (define-input "SLIPPERY" (:box box) (friction "SLIPPERY-U")
   (<= (%box-friction box) friction)
-  (apply #'format nil "u is ~a, no more than SLIPPERY-U, ~a" (number-texts (%box-friction box) friction)))
+  (apply #'format nil "u is ~a, no more than SLIPPERY-U, ~a"
+         (number-texts (%box-friction box) friction)))
 
 ;;; Ready for a gripper
 
@@ -109,14 +113,14 @@ gripper gives, 0 if none."
   (threshold 0d0 :type double-float :read-only t))
 
 (defun absent-threshold (row graspbase)
-  "Return the name of the dimension that is the threshold of ROW, if the gripper of GRASPBASE lacks it;
-else NIL."
+  "Return the name of the dimension that is the threshold of ROW, if the gripper of GRASPBASE lacks
+it; else NIL."
   (let ((name (input-row-dimension row)))
     (and name (not (dimension graspbase name)) name)))
 
 (defun prepare-inputs (rulebase graspbase)
-  "Return the preliminary assertions, ready for the rules of RULEBASE and the gripper of GRASPBASE.  One
-whose threshold the gripper lacks is left out, as no rule of RULEBASE tests it."
+  "Return the preliminary assertions, ready for the rules of RULEBASE and the gripper of GRASPBASE.
+One whose threshold the gripper lacks is left out, as no rule of RULEBASE tests it."
   (loop for row in *inputs*
         for name = (input-row-dimension row)
         unless (absent-threshold row graspbase)

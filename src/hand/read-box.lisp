@@ -3,8 +3,8 @@
 (in-package :supergrip)
 
 (defun unwrap-box (form)
-  "Return the description in FORM, which may be '(...), or (SETQ BOX '(...)); and where in FORM it is,
-a list of numbers, each that of an element."
+  "Return the description in FORM, which may be '(...), or (SETQ BOX '(...)); and where in FORM it
+is, a list of numbers, each that of an element."
   (flet ((unwrap (number)
            (multiple-value-bind (description path) (unwrap-box (nth number form))
              (values description (cons number path)))))
@@ -30,20 +30,21 @@ a list of numbers, each that of an element."
                     (first clause)))
          (row (and name (key-named name))))
     (cond ((null name)
-           (complain (clause-spot) "~a is not a part of a box description: its parts are lists such as ~
-                                    (SIZE 12 2 2)" (value-text *notation* clause)))
+           (complain (clause-spot) "~a is not a part of a box description: its parts are lists ~
+                                    such as (SIZE 12 2 2)" (value-text *notation* clause)))
           ((null row)
            (complain (clause-spot) "unknown key ~a~a; keys are ~{~a~^, ~}"
                      (value-text *notation* name)
-                     (suggestion (string name) (mapcar (if (stringp name)
-                                                           #'box-key-json
-                                                           (lambda (row) (symbol-name (box-key-key row))))
-                                                       *box-keys*))
+                     (suggestion (string name)
+                                 (mapcar (if (stringp name)
+                                             #'box-key-json
+                                             (lambda (row) (symbol-name (box-key-key row))))
+                                         *box-keys*))
                      (loop for row in *box-keys* collect (key-name *notation* row))))
           ((member row keys)
            (complain (clause-spot) "~a is given twice" (key-name *notation* row)))
           ((find-rival row keys)
-           (complain (clause-spot) "~a stands in the place of ~a, and both are given: leave out one"
+           (complain (clause-spot) "~a and ~a are both given; give only one of them"
                      (key-name *notation* (if (box-key-instead row) row (find-rival row keys)))
                      (key-name *notation* (if (box-key-instead row) (find-rival row keys) row))))
           (t row))))
@@ -128,13 +129,13 @@ weight.  As long as no gripper is known, a finger force is 1 N."
 (defun refuse-size (row description)
   "Complain that what DESCRIPTION gives for the key ROW can't be converted."
   (let ((*clause* (clause-number (box-key-key row) description)))
-    (complain (clause-spot) "~a can't be computed with: in cm, or N, it would be out of range, ~
-                             from 1e-300 to 1e300"
+    (complain (clause-spot) "~a is out of range: in cm or N, it must lie between 1e-300 and ~
+                             1e300"
               (clause-text *notation* row (rest (nth *clause* description))))))
 
 (defun complain-of-missing (keys)
-  "Complain if KEYS lack one that a box must have.  Where the box was read, a parenthesis too many may
-have ended it."
+  "Complain if KEYS lack one that a box must have.  Where the box was read, a parenthesis too many
+may have ended it."
   (let ((missing (remove-if (lambda (row)
                               (or (box-key-optional row) (member row keys)
                                   (find (box-key-key row) keys :key #'box-key-instead)))
@@ -142,7 +143,8 @@ have ended it."
     (dolist (row missing)
       (complain *path* "~a is missing; it takes ~a" (key-name *notation* row) (key-takes row)))
     (when (and missing *places*)
-      (complain :end "the box ends here; if more of it follows, there is one ~a too many, here or earlier"
+      (complain :end "the box ends here; if more of it follows, there is one ~a too many, here or ~
+                      earlier"
                 (nth-value 1 (description-text *notation*))))))
 
 (defun complain-of-no-need (values)
@@ -158,7 +160,8 @@ have ended it."
   "Return the box that FORM describes: the paper's list
 ((SIZE 12 2 2) (WEIGHT 0.2) (U 0.8) (V 0.2) (CONSTRAINED Z2 X1) (FORCE-NEEDED (1 0.8 0.8 0.3 1 1))
 (VELOCITY-NEEDED (0 0.8 0.8 0 0.8 0.8))), in any order, with an optional (NAME \"pencil\") and
-(FACTS (FRAGILE (Z1)) (WET)), also inside (SETQ BOX '...).  Names may be of any package.  FILE and LINE are used in reports.
+(FACTS (FRAGILE (Z1)) (WET)), also inside (SETQ BOX '...).  Names may be of any package.  FILE and
+LINE are used in reports.
 
 Sizes in cm; weight in units of one finger's greatest normal force; V in cm; needs from 0 to 1; or
 all in the units of (UNITS MM N), and (MASS kg) for the weight: see docs/languages.md.

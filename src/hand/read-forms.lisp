@@ -1,7 +1,8 @@
 ;;;; read-forms.lisp -- the forms of the grasp file are checked and become trees of nodes.
 ;;;;
-;;;; The first of two stages: every operator, name and count is checked here, constants are computed,
-;;;; and helper functions are opened up.  compile-forms.lisp turns the trees into closures.
+;;;; The first of two stages: every operator, name and count is checked here, constants are
+;;;; computed, and helper functions are opened up.  compile-forms.lisp turns the trees into
+;;;; closures.
 ;;;;
 ;;;; A form gives a number, six numbers, or is true or false.  What may stand first in one is a row:
 ;;;; of operators.lisp, or a DEFINE-FORM here.
@@ -35,8 +36,8 @@ A :LET computes its nodes, whether its body uses them or not."
 
 (defmacro node-case ((gives node) &body clauses)
   "Run that one of CLAUSES which is for the kind of NODE.  A clause is (KIND PARAMETERS form...) or
-((KIND...) PARAMETERS form...); PARAMETERS take the arguments of the node.  What NODE GIVES is known;
-an error at compile time says so if one of its kinds has no clause."
+((KIND...) PARAMETERS form...); PARAMETERS take the arguments of the node.  What NODE GIVES is
+known; an error at compile time says so if one of its kinds has no clause."
   (let ((kinds (rest (assoc gives +node-kinds+)))
         (handled (loop for (kinds) in clauses append (if (listp kinds) kinds (list kinds))))
         (the-node (gensym "NODE")))
@@ -71,15 +72,16 @@ an error at compile time says so if one of its kinds has no clause."
 every form sees; FUNCTIONS, an alist from name to (PARAMETERS . BODY), the latest first, and BROKEN,
 the names of those that are wrong; CONSTANTS, a table of the nodes of all forms' numbers.
 
-DIMENSIONS are the entries of VARIABLES for the gripper's dimensions, ABSENT for those that it lacks;
-USES is a table from such an entry to the DIMENSION-USEs of it, the latest first.  GRASP is the name of
-the grasp that is being read.  GRIPPER-PLACE says where the gripper is, if not in the same file."
+DIMENSIONS are the entries of VARIABLES for the gripper's dimensions, ABSENT for those that it
+lacks; USES is a table from such an entry to the DIMENSION-USEs of it, the latest first.  GRASP is
+the name of the grasp that is being read.  GRIPPER-PLACE says where the gripper is, if not in the
+same file."
   (variables '()) (globals '()) (functions '()) (broken '()) (constants (make-hash-table))
   (dimensions '()) (absent '()) (uses (make-hash-table :test #'eq)) (grasp nil) (gripper-place nil))
 
 (defparameter +most-constants+ 16000
-  "How many different numbers a grasp file may have.  They and the steps of a form take fewer registers
-than there are.")
+  "How many different numbers a grasp file may have.  They and the steps of a form take fewer
+registers than there are.")
 
 (defun constant-node (scope number)
   "Return the node of NUMBER, or NIL after a complaint if there are too many."
@@ -115,7 +117,8 @@ than there are.")
   "Count a step.  Return NIL if it is one too many, after a complaint at the first."
   (decf *steps-left*)
   (when (= *steps-left* -1)
-    (complain *counted-form* "more than ~d steps, with the helpers that it calls put in their places"
+    (complain *counted-form* "more than ~d steps; each call of a helper counts as all steps of ~
+                              the helper"
               +most-steps+))
   (>= *steps-left* 0))
 
@@ -171,7 +174,9 @@ complaint."
 (defun parse-number-form (form scope)
   (let ((operator (form-operator form :number)))
     (cond ((realp form)
-           (if (as-double form) (constant-node scope form) (complain form "~a is out of range" form)))
+           (if (as-double form)
+               (constant-node scope form)
+               (complain form "~a is out of range" form)))
           ((namep form) (parse-variable form scope))
           (operator (funcall (operator-parse operator) form scope :number))
           ((and (consp form) (namep (first form))) (parse-call form scope))
@@ -191,8 +196,8 @@ complaint."
   (let ((entry (assoc name (scope-variables scope) :test #'name=)))
     (cond (entry (note-use entry scope)
                  (cdr entry))
-          (t (complain name "unknown name ~a~a; known are U, V, the gripper's dimensions~@[ (~a)~], ~
-                             a helper's parameters and what LET* binds" name
+          (t (complain name "unknown name ~a~a; known are U, V, the gripper's dimensions~@[ ~
+                             (~a)~], a helper's parameters and what LET* binds" name
                        (suggestion (symbol-name name) (mapcar #'car (scope-variables scope)))
                        (scope-gripper-place scope))))))
 
@@ -214,8 +219,8 @@ complaint."
           (t (reduce (lambda (a b) (operation-node operator (list a b) form scope)) nodes)))))
 
 (defun operation-node (operator nodes form scope)
-  "Return the node of OPERATOR on NODES, as many as it takes at once.  It is computed now if they are
-constants.  NIL if one of them is NIL."
+  "Return the node of OPERATOR on NODES, as many as it takes at once.  It is computed now if they
+are constants.  NIL if one of them is NIL."
   (cond ((member nil nodes) nil)
         ((every #'constant-p nodes)
          (let ((value (operator-value operator (mapcar #'constant-value nodes))))
@@ -246,7 +251,8 @@ constants.  NIL if one of them is NIL."
   (let ((grasp-faces (and (= (length form) 2) (quoted-faces (second form)))))
     (if (and (= (length grasp-faces) 2) (= 1 (logxor (first grasp-faces) (second grasp-faces))))
         (input-node (+ +distances+ (floor (first grasp-faces) 2)))
-        (complain form "~a: DIST takes two opposite faces, such as (DIST '(N1 N2))" (form-text form)))))
+        (complain form "~a: DIST takes two opposite faces, such as (DIST '(N1 N2))"
+                  (form-text form)))))
 
 ;;; Sums that were products once: the scan of the paper reads (* 2 u) as (+ 2 u)
 
@@ -261,8 +267,8 @@ constants.  NIL if one of them is NIL."
   (and (eq (node-kind node) :input) (member (first (node-args node)) (list +u+ +v+))))
 
 (defun factor-p (form node)
-  "True if FORM, whose node is NODE, is a friction, a distance, or a number other than 1: a factor as
-it stands.  Nobody multiplies by 1."
+  "True if FORM, whose node is NODE, is a friction, a distance, or a number other than 1: a factor
+as it stands.  Nobody multiplies by 1."
   (and (or (atom form) (part-p form "DIST"))
        (or (eq (node-kind node) :input)
            (and (constant-p node) (/= 1 (constant-value node))))))
@@ -307,8 +313,8 @@ it stands.  Nobody multiplies by 1."
           (let-node nodes (let ((*sums* nil)) (parse-form body inner :number)) form))))))
 
 (defun let-node (nodes body form)
-  "Return a node that computes NODES, as a Lisp call does, whether BODY uses them or not.  NIL if BODY
-is."
+  "Return a node that computes NODES, as a Lisp call does, whether BODY uses them or not.  NIL if
+BODY is."
   (let ((nodes (remove-if (lambda (node) (member (node-kind node) '(:constant :input))) nodes)))
     (if (and body nodes)
         (node :let form nodes body)
@@ -325,7 +331,7 @@ is."
 
 (defun parse-let (form scope wanted sequential)
   (if (not (and (= (length form) 3) (listp (second form))))
-      (complain form "~a is (~:*~a ((name form)...) form)" (first form))
+      (complain form "~a is written (~:*~a ((name form)...) form)" (first form))
       (let ((inner scope) (nodes '()) (good t))
         (dolist (binding (second form))
           (let ((entry (parse-binding binding (if sequential inner scope) form)))

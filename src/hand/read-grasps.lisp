@@ -3,14 +3,14 @@
 (in-package :supergrip)
 
 (defstruct grasp
-  "A grasp mode.  DEFINITION is the form that was read, USED the list of the grasp faces that it uses,
-PALM the one that the palm faces, CONTACTS a list of (GRASP-FACE P Q), P and Q being registers; PLACES
-holds the same as axes (0 to 2) and registers in turn, without the axes that the faces are normal to.
-The other parts are PROGRAMs; COMPARISONS is an alist from the comparisons in CONDITIONS-NODE to those of their operands.
-DRAFT has the nodes of all parts.
+  "A grasp mode.  DEFINITION is the form that was read, USED the list of the grasp faces that it
+uses, PALM the one that the palm faces, CONTACTS a list of (GRASP-FACE P Q), P and Q being
+registers; PLACES holds the same as axes (0 to 2) and registers in turn, without the axes that the
+faces are normal to.  The other parts are PROGRAMs; COMPARISONS is an alist from the comparisons in
+CONDITIONS-NODE to those of their operands.  DRAFT has the nodes of all parts.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
-SAME, for each matching, the set of those that are the same grasp, itself included; SAME-CENTRE, of those
-of them whose grasp centre is surely the same place of the box."
+SAME, for each matching, the set of those that are the same grasp, itself included; SAME-CENTRE, of
+those of them whose grasp centre is surely the same place of the box."
   (name "" :type string :read-only t) (index 0 :type fixnum :read-only t)
   (definition nil :read-only t) (draft nil :read-only t)
   (file nil :read-only t) (line nil :read-only t) (comment '() :read-only t)
@@ -51,7 +51,7 @@ the DIMENSION-USEs of grasps, ROWS those of all known dimensions (see +DIMENSION
   (broken '() :type list :read-only t)  ; names of grasps that were left out
   (registers (make-array +inputs-end+ :element-type 'double-float) :type registers :read-only t))
 
-(define-printing (graspbase graspbase) "~d grasps" (length (graspbase-grasps graspbase)))
+(define-printing (graspbase graspbase) "~d grasp~:p" (length (graspbase-grasps graspbase)))
 
 (defun find-grasp (graspbase name)
   "Return the grasp of GRASPBASE that has NAME, or NIL."
@@ -120,7 +120,8 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
              (unless (given-p key)
                (complain form "~a is missing~a" key (words-hint key)))))
           ((given-p "OFFSET")
-           (complain (third (given-p "REACH")) "REACH stands in place of OFFSET; give one of them")))))
+           (complain (third (given-p "REACH"))
+                     "REACH stands in place of OFFSET; give one of them")))))
 
 (defun key-suggestion (key)
   "Return the phrase that suggests what KEY, which is none, was probably meant to be."
@@ -136,7 +137,8 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
           (t grasp-faces))))
 
 (defun parse-palm (entry used)
-  "Return the grasp face of the palm: by default the used face of A.  USED is NIL if it is wrong itself."
+  "Return the grasp face of the palm: by default the used face of A.  USED is NIL if it is wrong
+itself."
   (let ((grasp-face (if entry
                   (grasp-face-index (second entry))
                   (find-if (lambda (grasp-face) (member grasp-face used)) '(5 4)))))
@@ -168,7 +170,8 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
   (let ((contacts (if entry
                       (and (listp (second entry)) (second entry))
                       (loop for grasp-face in used
-                            unless (eql grasp-face palm) collect (list (svref +grasp-faces+ grasp-face) 0 0)))))
+                            unless (eql grasp-face palm)
+                            collect (list (svref +grasp-faces+ grasp-face) 0 0)))))
     (cond ((null contacts) (complain *form* "CONTACTS lists no contact"))
           ((nthcdr +most-contacts+ contacts)
            (complain *form* "CONTACTS lists more than ~d contacts" +most-contacts+))
@@ -176,8 +179,8 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
                    for number from 1
                    for other = (position contact others :test #'equal)
                    when other
-                     do (complain *form* '(:warning "contacts ~d and ~d are at the same place: their ~
-                                                     forces add up")
+                     do (complain *form* '(:warning "contacts ~d and ~d are at the same place: ~
+                                                     their forces add up")
                                   number (+ number 1 other)))
              (let ((parsed (loop for contact in contacts
                                  collect (parse-contact contact used scope))))
@@ -216,7 +219,7 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
   "Return the node of FORM, the mobility; complain of an entry below zero."
   (let ((node (parse-form form scope :six)))
     (if (and node (negative-twist node))
-        (complain form "an entry below 0: mobility is 0 or more")
+        (complain form "an entry is below 0, but a mobility must be 0 or more")
         node)))
 
 (defun parse-grasp (name plist form scope)
@@ -242,8 +245,8 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
                         (values (parse-form form (placement-scope placement) :six) form)))))))
 
 (defun parse-capacity (key given placement parse)
-  "Return the node of KEY, WRENCH or TWIST, whose entry GIVEN, a function, gives; FROM-CONTACTS stands for
-one that is absent beside REACH.  PARSE is a function of any other value and a scope."
+  "Return the node of KEY, WRENCH or TWIST, whose entry GIVEN, a function, gives; FROM-CONTACTS
+stands for one that is absent beside REACH.  PARSE is a function of any other value and a scope."
   (let ((entry (funcall given key)))
     (when (or entry (funcall given "REACH"))
       (with-entry (key entry)
@@ -254,8 +257,8 @@ one that is absent beside REACH.  PARSE is a function of any other value and a s
                  (funcall (third (part-word key value)) placement value))))))))
 
 (defun derived-parts (given offset-form wrench twist contacts)
-  "Return what the entries GIVEN, a function of a key, leave to be derived: lists of a key and a form,
-and sentences."
+  "Return what the entries GIVEN, a function of a key, leave to be derived: lists of a key and a
+form, and sentences."
   (append (and offset-form (list (list "OFFSET" offset-form)))
           (and (not (funcall given "CONTACTS"))
                (list (list "CONTACTS" (loop for (grasp-face) in contacts
@@ -272,7 +275,8 @@ and sentences."
     (flet ((given (key) (assoc key entries :test #'string=)))
       (macrolet ((part (key form)
                    `(and (given ,key)
-                         (let ((value (second (given ,key)))) (with-entry (,key (given ,key)) ,form)))))
+                         (let ((value (second (given ,key))))
+                           (with-entry (,key (given ,key)) ,form)))))
         (let* ((used (part "USED-SURFACES" (parse-used value)))
                (palm (and (or used (given "PALM"))
                           (with-entry ("PALM" (given "PALM")) (parse-palm (given "PALM") used))))
@@ -301,10 +305,12 @@ and sentences."
 ;;; From drafts to grasps
 
 (defun carried-onto-itself (grasp-faces turn)
-  (null (set-exclusive-or grasp-faces (mapcar (lambda (grasp-face) (svref turn grasp-face)) grasp-faces))))
+  (null (set-exclusive-or grasp-faces
+                          (mapcar (lambda (grasp-face) (svref turn grasp-face)) grasp-faces))))
 
 (defun allowed-turn-p (kind turn used fingers)
-  "True if a grasp that uses the grasp faces USED, with FINGERS, those of its contacts, is the same after TURN as far as the paper's index can tell, which takes the lesser of two directions."
+  "True if a grasp that uses the grasp faces USED, with FINGERS, those of its contacts, is the same
+after TURN as far as the paper's index can tell, which takes the lesser of two directions."
   (and (carried-onto-itself used turn)
        (carried-onto-itself (remove-duplicates fingers) turn)
        (or (eq kind :half-turn)
@@ -330,11 +336,12 @@ coordinates that the turn changes are always 0."
 
 (defun computes-p (grasp)
   "True if GRASP asks for a computation."
-  (or (computed-p (draft-wrench (grasp-draft grasp))) (computed-p (draft-twist (grasp-draft grasp)))))
+  (or (computed-p (draft-wrench (grasp-draft grasp)))
+      (computed-p (draft-twist (grasp-draft grasp)))))
 
 (defun contact-points (contacts &optional mirrors)
-  "Return where CONTACTS are, lists of a grasp face and two lengths, after mirrors along the axes MIRRORS.
-A length that varies is equal to itself alone, and not to its mirror image."
+  "Return where CONTACTS are, lists of a grasp face and two lengths, after mirrors along the axes
+MIRRORS.  A length that varies is equal to itself alone, and not to its mirror image."
   (flet ((place-of (node mirrored)
            (cond ((not (constant-p node)) (list (and mirrored t) node))
                  (mirrored (- 0d0 (constant-value node)))
@@ -356,9 +363,9 @@ A length that varies is equal to itself alone, and not to its mirror image."
   (every (lambda (node) (and (constant-p node) (zerop (constant-value node)))) (rest contact)))
 
 (defun same-anyhow-p (draft kind)
-  "True if a turn of KIND leaves the grasp of DRAFT the same wherever gravity points.  Six entries of
-WRENCH are good both ways, twelve are not: the contacts must come where others were.  A third-turn
-moves the palm, which a TWIST that is computed tells apart."
+  "True if a turn of KIND leaves the grasp of DRAFT the same wherever gravity points.  Six entries
+of WRENCH are good both ways, twelve are not: the contacts must come where others were.  A
+third-turn moves the palm, which a TWIST that is computed tells apart."
   (let ((contacts (draft-contacts draft)))
     (and (or (not (computed-p (draft-wrench draft)))
              (if (eq kind :half-turn)
@@ -367,16 +374,17 @@ moves the palm, which a TWIST that is computed tells apart."
          (or (eq kind :half-turn) (not (computed-p (draft-twist draft)))))))
 
 (defun same-upright-p (draft kind matching)
-  "True if a turn of KIND leaves the grasp of DRAFT in MATCHING the same where gravity points along Z.
-A half-turn about Z does; so does one that exchanges up and down if the contacts are mirror images."
+  "True if a turn of KIND leaves the grasp of DRAFT in MATCHING the same where gravity points along
+Z.  A half-turn about Z does; so does one that exchanges up and down if the contacts are mirror
+images."
   (let ((vertical (position 2 (matching-axes matching) :end 3)))
     (or (same-anyhow-p draft kind)
         (and (eq kind :half-turn)
              (or (= vertical 2) (mirrored-p (draft-contacts draft) (list vertical)))))))
 
 (defun same-matchings (used fingers same-p)
-  "Return, for each matching, the set of those turns of it (see +TURNS+) that are the same grasp: as far
-as its faces show, and as SAME-P, a function of the kind of a turn and a matching, says."
+  "Return, for each matching, the set of those turns of it (see +TURNS+) that are the same grasp: as
+far as its faces show, and as SAME-P, a function of the kind of a turn and a matching, says."
   (let ((sets (make-array 24 :element-type '(unsigned-byte 24))))
     (loop for matching across +matchings+
           do (setf (aref sets (matching-index matching))
@@ -407,7 +415,8 @@ has one of them."
           'register-vector))
 
 (defun finish-grasp (draft index layout)
-  "Return the grasp of DRAFT, the one with INDEX, its forms ready to run on the registers of LAYOUT."
+  "Return the grasp of DRAFT, the one with INDEX, its forms ready to run on the registers of
+LAYOUT."
   (let* ((contacts (draft-contacts draft))
          (fingers (mapcar #'first contacts))
          (conditions (draft-conditions draft))
@@ -441,8 +450,8 @@ has one of them."
 ;;; The file
 
 (defun global-scope (gripper rows)
-  "Return the scope of a grasp file with GRIPPER.  Of the dimensions ROWS, those that it lacks are known
-all the same, so that no form is blamed for them."
+  "Return the scope of a grasp file with GRIPPER.  Of the dimensions ROWS, those that it lacks are
+known all the same, so that no form is blamed for them."
   (let ((scope (make-scope :gripper-place (gripper-place gripper))))
     (flet ((entry (name number) (cons name (constant-node scope number))))
       (setf (scope-dimensions scope)
@@ -468,8 +477,8 @@ all the same, so that no form is blamed for them."
         append (reverse (gethash entry (scope-uses scope)))))
 
 (defun build-graspbase (forms &optional (gripper (build-gripper forms)))
-  "Return the graspbase of FORMS, those of a grasp file, in their order, and of GRIPPER, by default that
-among them.  Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
+  "Return the graspbase of FORMS, those of a grasp file, in their order, and of GRIPPER, by default
+that among them.  Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
   (let* ((rows (known-dimensions forms))
          (scope (global-scope gripper rows))
          (drafts '()) (broken '())

@@ -22,8 +22,8 @@ names those that are used, and may have others.")
 
 (defstruct gripper
   "A gripper as it was read.  DIMENSIONS, an alist from name to double; NAMES, those that it gives,
-rightly or not; MODEL, a string, or NIL; FORM, (SETQ GRIPPER '(...)), or NIL if there is none; PLACE,
-its file and line as a text, if it has a file of its own."
+rightly or not; MODEL, a string, or NIL; FORM, (SETQ GRIPPER '(...)), or NIL if there is none;
+PLACE, its file and line as a text, if it has a file of its own."
   (dimensions '() :type list :read-only t) (names '() :type list :read-only t)
   (model nil :read-only t) (form nil :read-only t) (place nil :read-only t))
 
@@ -46,7 +46,8 @@ its file and line as a text, if it has a file of its own."
         if (consp part) append part
           else collect part))
 
-(defparameter +longest-model+ 100 "The most characters that the name of a gripper's model may have.")
+(defparameter +longest-model+ 100 "The most characters that the name of a gripper's model may
+have.")
 
 (defun parse-model (value form)
   "Return VALUE, the model's name, or NIL after a complaint."
@@ -56,15 +57,15 @@ its file and line as a text, if it has a file of its own."
                       \"2F-85\", not ~a" +longest-model+ (form-text value))))
 
 (defun parse-number-of (name list form)
-  "Return the entry of the dimension NAME, whose number LIST, the rest of the gripper, begins with; or
-NIL after a complaint."
+  "Return the entry of the dimension NAME, whose number LIST, the rest of the gripper, begins with;
+or NIL after a complaint."
   (if (realp (first list))
       (parse-dimension name (first list) form)
       (complain form "~a has no number after it" name)))
 
 (defun parse-gripper (list form place)
-  "Return the gripper of LIST, names and values in turn, complaining of what is wrong.  A name and its
-value may have a list of their own.  FORM holds LIST, and stands at PLACE."
+  "Return the gripper of LIST, names and values in turn, complaining of what is wrong.  A name and
+its value may have a list of their own.  FORM holds LIST, and stands at PLACE."
   (let ((dimensions '()) (names '()) (model nil) (list (flat-list list)))
     (if (nthcdr (* 2 +most-dimensions+) list)
         (complain form "more than ~d dimensions" +most-dimensions+)
@@ -95,8 +96,8 @@ value may have a list of their own.  FORM holds LIST, and stands at PLACE."
           (pinch (size "DIST-PINCH")) (width (size "FINGER-WIDTH"))
           (spread (size "FINGER-SPREAD")))
       (when (and length dist pinch (> pinch (+ dist (* 2 length))))
-        (compare "DIST-PINCH is ~a, but fingers of two links of ~a cm that start ~a cm apart open to ~
-                  ~a at most" pinch length dist (+ dist (* 2 length))))
+        (compare "DIST-PINCH is ~a, but fingers of two links of ~a cm that start ~a cm apart open ~
+                  to ~a at most" pinch length dist (+ dist (* 2 length))))
       (when (and width spread (> width spread))
         (compare "FINGER-WIDTH is ~a, more than FINGER-SPREAD, ~a" width spread))
       (when (and spread pinch (> spread pinch))
@@ -119,15 +120,15 @@ value may have a list of their own.  FORM holds LIST, and stands at PLACE."
   (and (part-p form "SETQ") (consp (rest form)) (name= (second form) "GRIPPER")))
 
 (defun build-gripper (forms &key alone)
-  "Return the gripper that the one (SETQ GRIPPER ...) among FORMS gives; one without dimensions after a
-complaint if it is wrong.  If ALONE is true, FORMS are those of a gripper file, which holds nothing
-else."
+  "Return the gripper that the one (SETQ GRIPPER ...) among FORMS gives; one without dimensions
+after a complaint if it is wrong.  If ALONE is true, FORMS are those of a gripper file, which holds
+nothing else."
   (let* ((grippers (remove-if-not #'gripper-form-p forms))
          (form (first grippers)))
     (when alone
       (dolist (other (remove-if #'gripper-form-p forms))
-        (complain other "a gripper file holds (SETQ GRIPPER '(...)) alone, not ~a; rules and grasps ~
-                         have files of their own" (form-text other))))
+        (complain other "a gripper file holds (SETQ GRIPPER '(...)) alone, not ~a; rules and ~
+                         grasps have files of their own" (form-text other))))
     (let ((*form* form) (*subject* "GRIPPER"))
       (when (null form)
         (complain nil "there is no (SETQ GRIPPER '(...))~:[ here, and no gripper file is given~;~]"
@@ -142,18 +143,21 @@ else."
 ;;; Which dimensions are used
 
 (defstruct dimension-use
-  "That the DIMENSION, a name, is used by USER, a rule or grasp, as KIND says, at PLACE, its file and line
-as a text, if they are known; as the threshold of the ASSERTION, a name, or in a form if that is NIL."
+  "That the DIMENSION, a name, is used by USER, a rule or grasp, as KIND says, at PLACE, its file
+and line as a text, if they are known; as the threshold of the ASSERTION, a name, or in a form if
+that is NIL."
   (dimension nil :read-only t) (kind "GRASP" :read-only t) (user nil :read-only t)
   (place nil :read-only t) (assertion nil :read-only t))
 
 (defun use-text (use)
   "Return who makes USE, and where."
-  (format nil "~a ~a~@[, ~a,~] uses it~@[ for ~a~]" (dimension-use-kind use) (dimension-use-user use)
+  (format nil "~a ~a~@[, ~a,~] uses it~@[ for ~a~]" (dimension-use-kind use)
+          (dimension-use-user use)
           (dimension-use-place use) (dimension-use-assertion use)))
 
 (defun replaced-dimensions (forms)
-  "Return the rows, as in +DIMENSIONS+, of the dimensions of grippers among FORMS that count no more."
+  "Return the rows, as in +DIMENSIONS+, of the dimensions of grippers among FORMS that count no
+more."
   (loop for form in (remove-if-not #'gripper-form-p forms)
         for list = (and (= (length form) 3) (part-p (third form) "QUOTE") (second (third form)))
         append (loop for (name value) on (and (listp list) (flat-list list))
@@ -183,8 +187,8 @@ as a text, if they are known; as the threshold of the ASSERTION, a name, or in a
             do (complain *form* '(:warning "nothing uses ~a~a") name hint))))
 
 (defun check-dimensions (gripper uses rows)
-  "Complain of each dimension that GRIPPER lacks, and of which there is one among USES; warn of those
-that may be misspelt.  ROWS are those of all known dimensions."
+  "Complain of each dimension that GRIPPER lacks, and of which there is one among USES; warn of
+those that may be misspelt.  ROWS are those of all known dimensions."
   (when (gripper-form gripper)
     (let ((*form* (gripper-form gripper)) (*subject* "GRIPPER"))
       (warn-of-misspelt-dimensions gripper uses rows)
@@ -192,6 +196,6 @@ that may be misspelt.  ROWS are those of all known dimensions."
             for (first . others) = (remove name uses :key #'dimension-use-dimension
                                                      :test-not #'string=)
             when (and first (not (member name (gripper-names gripper) :test #'string=)))
-              do (complain *form* "~a is missing: ~a~[~;, and 1 other does~:;, and ~:*~d others do~]; ~
-                                   add it with your hand's number, as  ~a"
+              do (complain *form* "~a is missing: ~a~[~;, and 1 other does~:;, and ~:*~d others ~
+                                   do~]; add it with your hand's number, as  ~a"
                            name (use-text first) (length others) (dimension-line name rows))))))

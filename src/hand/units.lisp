@@ -82,8 +82,8 @@ its shortest decimal: 0.006 times 100 is 0.6.  NIL if it is out of range."
     (/ (round (* rational scale)) scale)))
 
 (defun exactly-back (number factor)
-  "Return the double of which FACTOR, exact, makes NUMBER: where it is there one of 15 digits, as 0.2
-and not 0.19999999999999998.  NIL if it is out of range."
+  "Return the double of which FACTOR, exact, makes NUMBER: where it is there one of 15 digits, as
+0.2 and not 0.19999999999999998.  NIL if it is out of range."
   (let* ((value (/ (exact-decimal number) factor))
          (double (values (bounded-rational value)))
          (short (and double (/= double 0) (values (bounded-rational (rounded value 15))))))

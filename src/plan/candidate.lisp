@@ -32,8 +32,8 @@ plan by the exact index it is that of the greatest component of the worst motion
   (axis-or-nil candidate (%candidate-velocity-limit candidate)))
 
 (defun candidate-force-radius (candidate)
-  "Return u_w of CANDIDATE, or NIL if the task needs no force or it is not possible.  In a plan by the
-exact index it is the certified radius; or the sure one if there is no certificate; or, if
+  "Return u_w of CANDIDATE, or NIL if the task needs no force or it is not possible.  In a plan by
+the exact index it is the certified radius; or the sure one if there is no certificate; or, if
 CANDIDATE-BOUND-P, an upper bound."
   (and (candidate-force-axis candidate) (%candidate-force-radius candidate)))
 
@@ -64,8 +64,8 @@ the box."
                -1))
 
 (defun replay (candidate workspace)
-  "Take CANDIDATE through the steps again, in WORKSPACE, at its box; return WORKSPACE, which holds its
-figures."
+  "Take CANDIDATE through the steps again, in WORKSPACE, at its box; return WORKSPACE, which holds
+its figures."
   (run-steps workspace (make-candidate (%candidate-grasp candidate)
                                      (%candidate-matching candidate)))
   workspace)
@@ -85,7 +85,8 @@ into words in the units of the box."
            (give-back ,memory (plan-knowledge ,the-plan)))))))
 
 (defmacro with-replay ((workspace candidate plan) &body body)
-  "Run BODY with WORKSPACE, which holds the figures of CANDIDATE of PLAN and is given back after it."
+  "Run BODY with WORKSPACE, which holds the figures of CANDIDATE of PLAN and is given back after
+it."
   `(with-workspace (,workspace ,plan)
      (replay ,candidate ,workspace)
      ,@body))
@@ -93,7 +94,8 @@ into words in the units of the box."
 (defparameter +finger-names+
   (coerce (loop for number from 1 to +most-contacts+ collect (format nil "F~d" number))
           'simple-vector)
-  "The names of the fingers, in the order of a grasp's CONTACTS: F1, not to be taken for a face as N1.")
+  "The names of the fingers, in the order of a grasp's CONTACTS: F1, not to be taken for a face as
+N1.")
 
 (defun candidate-contacts (candidate &optional (plan *plan*))
   "Return the contacts of CANDIDATE, which is possible in PLAN: a list of plists with :SURFACE, the
@@ -134,8 +136,8 @@ positions in cm, the normals pointing inward; and :FINGER, the finger's name in 
                     (+ (aref (workspace-centre workspace) i) (pop rest)))))))))
 
 (defun replayed-six (capacities candidate plan)
-  "Return what CAPACITIES, a function of a workspace, gives for CANDIDATE of PLAN, a list; NIL where it
-failed before they were known."
+  "Return what CAPACITIES, a function of a workspace, gives for CANDIDATE of PLAN, a list; NIL where
+it failed before they were known."
   (and (member (candidate-outcome candidate) '(:possible :lifting))
        (with-replay (workspace candidate plan)
          (coerce (funcall capacities workspace) 'list))))
@@ -153,8 +155,8 @@ NIL where it failed before."
 (defun candidate-sure (candidate &optional (plan *plan*))
   "Return the sure radius of CANDIDATE of PLAN: how many times the forces and torques that the task
 needs, all together and in any direction, its contacts surely bear beside the weight; a double, 0 or
-more.  NIL if it is not possible, or the task needs no force.  u_w looks at one axis at a time, and is
-no such promise.  Source: SURE-RADIUS."
+more.  NIL if it is not possible, or the task needs no force.  u_w looks at one axis at a time, and
+is no such promise.  Source: SURE-RADIUS."
   (and (eq (candidate-outcome candidate) :possible)
        (with-replay (workspace candidate plan)
          (sure-of candidate workspace))))
@@ -198,8 +200,8 @@ X Y Z."
     (coerce load 'list)))
 
 (defun candidate-spare (candidate &optional (plan *plan*))
-  "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, both ways, beside gravity's load: six
-numbers.  NIL where it failed before."
+  "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, both ways, beside gravity's
+load: six numbers.  NIL where it failed before."
   (replayed-six (lambda (workspace)
                   (put-load (workspace-box workspace) (%candidate-x candidate)
                             (%candidate-y candidate) (%candidate-z candidate)

@@ -1,9 +1,9 @@
 ;;;; exact.lisp -- the exact index: closure, lifting and u_w are what the contacts can really do.
 ;;;;
-;;;; A candidate whose fingers reach their places is possible if its contacts are closed and hold the
-;;;; weight.  Its u_w is the certified radius.  That takes a thousand times as long as all the rest, so
-;;;; the best is searched for with bounds: the candidate of the greatest Q is looked at more closely,
-;;;; until its radius is certified.  Those that can't be better keep their bound.
+;;;; A candidate whose fingers reach their places is possible if its contacts are closed and hold
+;;;; the weight.  Its u_w is the certified radius.  That takes a thousand times as long as all the
+;;;; rest, so the best is searched for with bounds: the candidate of the greatest Q is looked at
+;;;; more closely, until its radius is certified.  Those that can't be better keep their bound.
 
 (in-package :supergrip)
 
@@ -107,8 +107,8 @@ NEED needs; -1 if there is none."
         (setf greatest axis)))))
 
 (defun counted-radius (candidate workspace)
-  "Return the radius with which CANDIDATE counts: a bound until the search is over, then the certified
-one or, if there is none, the sure radius."
+  "Return the radius with which CANDIDATE counts: a bound until the search is over, then the
+certified one or, if there is none, the sure radius."
   (let ((strength (%candidate-strength candidate)))
     (cond ((null (strength-worst strength)) 0d0)
           ((%candidate-bound candidate) (strength-upper strength))
@@ -131,10 +131,12 @@ one or, if there is none, the sure radius."
 ;;; The best
 
 (defvar *certified* 1
-  "How many of the best candidates of a plan exact mode looks at until their qualities are no bounds.")
+  "How many of the best candidates of a plan exact mode looks at until their qualities are no
+bounds.")
 
 (defun better-p (a b)
-  "True if the candidate A comes before B: by its quality, and if these are the same, by being no bound."
+  "True if the candidate A comes before B: by its quality, and if these are the same, by being no
+bound."
   (let ((one (%candidate-quality a)) (other (%candidate-quality b)))
     (or (> one other)
         (and (= one other) (%candidate-bound b) (not (%candidate-bound a))))))
@@ -151,9 +153,9 @@ one or, if there is none, the sure radius."
                (rate-exactly other workspace)))))
 
 (defun choose-exactly (workspace log)
-  "Return the best candidate in LOG, the latest first, at the box of WORKSPACE, or NIL.  Its quality is
-no bound, and no less than that of any other, bound or not; and so are the next ones, *CERTIFIED* in
-all."
+  "Return the best candidate in LOG, the latest first, at the box of WORKSPACE, or NIL.  Its quality
+is no bound, and no less than that of any other, bound or not; and so are the next ones, *CERTIFIED*
+in all."
   (without-float-traps
     (let ((possible (reverse (remove-if-not (lambda (entry)
                                               (and (candidate-p entry) (possible-p entry)))
@@ -173,7 +175,8 @@ all."
   (let ((sets (make-array 24 :element-type '(unsigned-byte 24))))
     (dotimes (matching 24 sets)
       (setf (aref sets matching) (ash 1 matching))))
-  "For each matching, the set of itself: gravity has a direction, so half a turn makes a difference.")
+  "For each matching, the set of itself: gravity has a direction, so half a turn makes a
+difference.")
 
 (setf *indices* (with-row (make-index :exact (constantly +each-alone+) #'choose-exactly)
                   *indices* #'index-name))
@@ -181,13 +184,13 @@ all."
 ;;; Answers, for plans by any index
 
 (defun candidate-bound-p (candidate)
-  "True if the quality and u_w of CANDIDATE are upper bounds: so in exact mode where a candidate could
-not become the best, and was not looked at more closely."
+  "True if the quality and u_w of CANDIDATE are upper bounds: so in exact mode where a candidate
+could not become the best, and was not looked at more closely."
   (%candidate-bound candidate))
 
 (defmacro with-grip ((grip box candidate plan) &body body)
-  "Run BODY with GRIP, the contacts of CANDIDATE of PLAN, and BOX; NIL if it is not possible, or can't
-be computed with."
+  "Run BODY with GRIP, the contacts of CANDIDATE of PLAN, and BOX; NIL if it is not possible, or
+can't be computed with."
   (let ((workspace (gensym)))
     `(and (possible-p ,candidate)
           (with-replay (,workspace ,candidate ,plan)
@@ -197,9 +200,9 @@ be computed with."
 
 (defun candidate-exact-radius (candidate plan &key (gap +gap+) (absolute +absolute+))
   "Return what the contacts of CANDIDATE of PLAN can really do, by whatever index the plan was made:
-the exact force radius, an upper value, the certified lower one, or NIL, and the worst motion, a list
-of six, as EXACT-RADIUS does, which explains GAP and ABSOLUTE.  NIL if it is not possible, the task
-needs no force, or places or weight are too large to compute with."
+the exact force radius, an upper value, the certified lower one, or NIL, and the worst motion, a
+list of six, as EXACT-RADIUS does, which explains GAP and ABSOLUTE.  NIL if it is not possible, the
+task needs no force, or places or weight are too large to compute with."
   (let ((gap (coerce gap 'double-float)) (absolute (coerce absolute 'double-float))
         (strength (%candidate-strength candidate)))
     (cond ((every #'zerop (%box-force (plan-box (need-plan plan)))) nil)
@@ -232,25 +235,26 @@ possible.  This is for tasks whose needs are absolute."
           ((proved :gap 1d-4 :absolute 1d-5)))))
 
 (defun candidate-squeeze (candidate &optional (plan *plan*))
-  "Return the least cap on each finger's force with which the contacts of CANDIDATE of PLAN surely do
-the task at radius 1 and hold the weight, in units of a finger's greatest force: 1 or less if they do it
-as they are.  NIL if no cap does or it was not proved, if it is not possible, or if there is neither
-need nor weight.  See LEAST-SQUEEZE."
+  "Return the least cap on each finger's force with which the contacts of CANDIDATE of PLAN surely
+do the task at radius 1 and hold the weight, in units of a finger's greatest force: 1 or less if
+they do it as they are.  NIL if no cap does or it was not proved, if it is not possible, or if there
+is neither need nor weight.  See LEAST-SQUEEZE."
   (with-grip (grip box candidate plan)
     (and (or (plusp (%box-weight box)) (some #'plusp (%box-force box)))
          (values (grip-squeeze grip (%box-force box) (gravity-on box))))))
 
 (defun candidate-friction-margin (candidate &optional (plan *plan*))
-  "Return by how much the friction u may be less and the contacts of CANDIDATE of PLAN surely still do
-the task at radius 1 and hold the weight: below 0 if they need more.  NIL if no u does or it was not
-proved, or if it is not possible.  See LEAST-FRICTION."
+  "Return by how much the friction u may be less and the contacts of CANDIDATE of PLAN surely still
+do the task at radius 1 and hold the weight: below 0 if they need more.  NIL if no u does or it was
+not proved, or if it is not possible.  See LEAST-FRICTION."
   (with-grip (grip box candidate plan)
     (let ((least (grip-least-friction grip (%box-force box) (gravity-on box))))
       (and least (- (%box-friction box) least)))))
 
 (defun finger-powers (position normal u v motion)
-  "Return what a finger at POSITION with the inward NORMAL, lists of three, can do at most in MOTION, a
-list of six, by pressing, by friction U and by its tip's torque V: nothing if it can't help."
+  "Return what a finger at POSITION with the inward NORMAL, lists of three, can do at most in
+MOTION, a list of six, by pressing, by friction U and by its tip's torque V: nothing if it can't
+help."
   (destructuring-bind (vx vy vz wx wy wz) motion
     (destructuring-bind (x y z) position
       (let* ((velocity (list (+ vx (- (* wy z) (* wz y)))
@@ -263,9 +267,10 @@ list of six, by pressing, by friction U and by its tip's torque V: nothing if it
         (if (plusp (reduce #'+ powers)) powers '(0d0 0d0 0d0))))))
 
 (defun candidate-powers (candidate motion &optional (plan *plan*))
-  "Return what the contacts of CANDIDATE of PLAN can do at most in MOTION, a list of six, such as the
-worst that CANDIDATE-EXACT-RADIUS gives: four numbers, the power of pressing, of friction, of the
-fingertips' torque and of the weight.  Together they are the radius times what the task needs there."
+  "Return what the contacts of CANDIDATE of PLAN can do at most in MOTION, a list of six, such as
+the worst that CANDIDATE-EXACT-RADIUS gives: four numbers, the power of pressing, of friction, of
+the fingertips' torque and of the weight.  Together they are the radius times what the task needs
+there."
   (let ((box (plan-box (need-plan plan))))
     (append (reduce (lambda (a b) (mapcar #'+ a b))
                     (loop for contact in (candidate-contacts candidate plan)

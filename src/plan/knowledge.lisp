@@ -3,11 +3,11 @@
 (in-package :supergrip)
 
 (defstruct (knowledge (:constructor %make-knowledge))
-  "Rules and grasps, ready for use; immutable, but for SPARE, scratch space that plans give back (see
-START-PLAN).  INPUTS are the preliminary assertions, prepared; USES the DIMENSION-USEs of rules and
-grasps.  RULE-FILE, GRASP-FILE and GRIPPER-FILE,
-which is NIL if the gripper is that of the grasp file, are what they were made of, COMPLAINTS the
-PROBLEMs that did not prevent it."
+  "Rules and grasps, ready for use; immutable, but for SPARE, scratch space that plans give back
+(see START-PLAN).  INPUTS are the preliminary assertions, prepared; USES the DIMENSION-USEs of rules
+and grasps.  RULE-FILE, GRASP-FILE and GRIPPER-FILE, which is NIL if the
+gripper is that of the grasp file, are what they were made of, COMPLAINTS the PROBLEMs that did not
+prevent it."
   (rule-file nil :read-only t)
   (grasp-file nil :read-only t)
   (gripper-file nil :read-only t)
@@ -23,7 +23,7 @@ PROBLEMs that did not prevent it."
   "Return the PROBLEMs of KNOWLEDGE that did not prevent its use."
   (copy-list (knowledge-complaints knowledge)))
 
-(define-printing (knowledge knowledge) "~d rules, ~d grasps"
+(define-printing (knowledge knowledge) "~d rule~:p, ~d grasp~:p"
   (length (knowledge-rules knowledge)) (length (knowledge-grasps knowledge)))
 
 (defun knowledge-rules (knowledge)
@@ -55,8 +55,9 @@ PROBLEMs that did not prevent it."
           collect (list (copy-list (predicate-words predicate)) (predicate-arity predicate))))
 
 (defstruct data-file
-  "A rule, grasp or gripper file that was read: its PATH, if it is one, its NAME in reports, its FORMS, LINES,
-a table from form to line, COMMENTS, one from form to comment, and the PROBLEMS of reading it."
+  "A rule, grasp or gripper file that was read: its PATH, if it is one, its NAME in reports, its
+FORMS, LINES, a table from form to line, COMMENTS, one from form to comment, and the PROBLEMS of
+reading it."
   (path nil) (name nil) (forms '() :type list) (lines nil) (comments nil) (problems '() :type list))
 
 (defmacro with-data-file ((file) &body body)
@@ -76,8 +77,8 @@ a table from form to line, COMMENTS, one from form to comment, and the PROBLEMS 
           (if gripper (build-graspbase forms gripper) (build-graspbase forms)))))))
 
 (defun threshold-uses (forms)
-  "Return the DIMENSION-USEs of the rules FORMS: of the thresholds of the preliminary assertions that
-they test."
+  "Return the DIMENSION-USEs of the rules FORMS: of the thresholds of the preliminary assertions
+that they test."
   (loop for (rule words clause) in (tested-sentences forms)
         for row = (find words *inputs* :key #'input-row-name :test #'string=)
         when (and row (input-row-dimension row))
@@ -85,12 +86,13 @@ they test."
                                       :place (form-place-text clause) :assertion words)))
 
 (defun build-rules (rule-file graspbase)
-  "Return the rulebase of RULE-FILE, whose rules try the grasps of GRASPBASE, and its DIMENSION-USEs.
-Rules that test a threshold that the gripper lacks are left out."
+  "Return the rulebase of RULE-FILE, whose rules try the grasps of GRASPBASE, and its
+DIMENSION-USEs.  Rules that test a threshold that the gripper lacks are left out."
   (with-data-file (rule-file)
     (let* ((forms (data-file-forms rule-file))
            (uses (threshold-uses forms))
-           (lame (remove-if (lambda (use) (dimension graspbase (dimension-use-dimension use))) uses)))
+           (lame (remove-if (lambda (use) (dimension graspbase (dimension-use-dimension use)))
+                            uses)))
       (flet ((build (forms)
                (build-rulebase forms (input-predicates) :client graspbase))
              (lame-p (form)
@@ -104,8 +106,8 @@ Rules that test a threshold that the gripper lacks are left out."
                   uses))))))
 
 (defun build-knowledge (rule-file grasp-file &optional gripper-file)
-  "Return the knowledge in RULE-FILE, GRASP-FILE and, if that is not NIL, GRIPPER-FILE, data files, and
-the list of all problems.  What is wrong is left out."
+  "Return the knowledge in RULE-FILE, GRASP-FILE and, if that is not NIL, GRIPPER-FILE, data files,
+and the list of all problems.  What is wrong is left out."
   (multiple-value-bind (make problems)
       (with-problems
         (let ((graspbase (build-grasps grasp-file gripper-file)))
@@ -227,8 +229,8 @@ one.  Its name in reports is FILE as it was given, but a shipped file goes by it
                                     (t (native-name path)))))))
 
 (defun read-data-file (file)
-  "Return the data file of FILE, a path or a data file, read anew if it has a path; what prevents its
-being read is among its problems."
+  "Return the data file of FILE, a path or a data file, read anew if it has a path; what prevents
+its being read is among its problems."
   (let* ((file (data-file-of file)) (path (data-file-path file)) (name (data-file-name file)))
     (flet ((unusable (problems)
              (make-data-file :path path :name name :problems problems)))
@@ -246,13 +248,15 @@ being read is among its problems."
                                         :text (format nil "this file ~a" condition)))))))))
 
 (defun file-source (text name)
-  "Return a source that reads TEXT, that of the file NAME.  Signals a SYNTAX-ERROR if it can't be read."
+  "Return a source that reads TEXT, that of the file NAME.  Signals a SYNTAX-ERROR if it can't be
+read."
   (flet ((refuse (control &rest arguments)
            (error 'syntax-error
                   :problems (list (make-problem :file name
                                                 :text (apply #'plain-text control arguments))))))
     (cond ((utf-16-p text 0 (length text))
-           (refuse "this file is UTF-16; UTF-8 is read, which iconv -f UTF-16 -t UTF-8 makes of it"))
+           (refuse "this file is UTF-16, but must be UTF-8; iconv -f UTF-16 -t UTF-8 converts ~
+                    it"))
           ((> (length text) (room-for (length text)))
            (refuse "this file is longer than the ~d characters that the heap has room for; ~
                     --dynamic-space-size makes the heap larger" (room-for (length text))))
@@ -287,15 +291,16 @@ calls READ again, and CONTINUE, which goes on without the rules and grasps that 
         (t (merge-pathnames name (native-path hand :directory t)))))
 
 (defun knowledge-file (name hand)
-  "Return the file NAME of the folder HAND, or, if that is NIL or lacks it, the one that is shipped."
+  "Return the file NAME of the folder HAND, or, if that is NIL or lacks it, the one that is
+shipped."
   (let ((file (and hand (hand-file hand name))))
     (if (and file (probe-file (native-path file)))
         file
         (shipped-file name))))
 
 (defun hand-gripper (hand)
-  "Return the file gripper.lisp of the folder HAND; NIL if it lacks that and has grasps.lisp, which may
-hold the gripper, too."
+  "Return the file gripper.lisp of the folder HAND; NIL if it lacks that and has grasps.lisp, which
+may hold the gripper, too."
   (let ((gripper (hand-file hand "gripper.lisp")))
     (flet ((there-p (file) (probe-file (native-path file))))
       (and (or (there-p gripper) (not (there-p (hand-file hand "grasps.lisp"))))

@@ -24,7 +24,8 @@
              (with-slots (given) condition
                (if given
                    (format stream "~a is not a plan: FORWARD-CHAIN, PLAN and TRY-GRASP return ~
-                                   plans~:[~;; HOW, WHY-NOT and REQUIRES answer about a name or a fact~]"
+                                   plans~:[~;; HOW, WHY-NOT and REQUIRES answer about a name or a ~
+                                   fact~]"
                            (form-text given) (or (namep given) (consp given) (stringp given)))
                    (write-string "there is no plan yet: call (forward-chain) first" stream)))))
   (:documentation "A question about a plan was asked before there was one, or of something else."))
@@ -85,8 +86,9 @@ is not any more what it was when that was made."))
                        (form-text object) instead)))
 
 (defun name-of (designator)
-  "Return the name that DESIGNATOR, a symbol of any package, a string in any case, a rule, a grasp, the
-form of a rule or the property list of a grasp in force, stands for; NIL if it is none of these."
+  "Return the name that DESIGNATOR, a symbol of any package, a string in any case, a rule, a grasp,
+the form of a rule or the property list of a grasp in force, stands for; NIL if it is none of
+these."
   (typecase designator
     (rule (rule-name designator))
     (grasp (grasp-name designator))
@@ -132,7 +134,8 @@ EVENT-FACT)."
            (let ((,event ,entry)) ,@event-body)))))
 
 (defun plan-events (plan)
-  "Return the events of PLAN, each a fact that a rule remembered, a new list in order: see EVENT-FACT."
+  "Return the events of PLAN, each a fact that a rule remembered, a new list in order: see
+EVENT-FACT."
   ;; REMOVE-IF might share its end with the log.
   (loop for entry in (plan-entries plan) unless (candidate-p entry) collect entry))
 
@@ -146,18 +149,18 @@ EVENT-FACT)."
 (defun plan (box &key (knowledge *knowledge*) (gamma *gamma*) (index :paper) margin)
   "Return the plan for BOX, a box or a description of one (see PARSE-BOX).
 KNOWLEDGE holds the rules and grasps to use, GAMMA from 0 to 1 weighs velocities against forces.
-INDEX is :PAPER, or :EXACT: then closure, lifting and u_w are what the contacts can really do, proved
-(see docs/physics.md).  MARGIN, a number above 0, multiplies the weight of BOX, and its needs if
-they are absolute, as in (UNITS CM N).
+INDEX is :PAPER, or :EXACT: then closure, lifting and u_w are what the contacts can really do,
+proved (see docs/physics.md).  MARGIN, a number above 0, multiplies the weight of BOX, and its needs
+if they are absolute, as in (UNITS CM N).
 A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from several threads."
   (with-plain-floats
     (let ((memory (start-plan (if margin (box-at-margin box margin) box) knowledge gamma index)))
       (finish-plan memory knowledge (run-rules (knowledge-rulebase knowledge) memory)))))
 
 (defun try-grasp (name &rest arguments)
-  "(TRY-GRASP NAME [BOX] &KEY KNOWLEDGE GAMMA INDEX): return a plan for BOX, by default what (setq box ...)
-gave, in which no rule has run: the grasp NAME, a string or a symbol, was tried in all matchings that
-use no constrained face, equivalent ones once.  Other arguments as for PLAN."
+  "(TRY-GRASP NAME [BOX] &KEY KNOWLEDGE GAMMA INDEX): return a plan for BOX, by default what (setq
+box ...) gave, in which no rule has run: the grasp NAME, a string or a symbol, was tried in all
+matchings that use no constrained face, equivalent ones once.  Other arguments as for PLAN."
   (if (or (null arguments) (keywordp (first arguments)))
       (apply #'try-only name (need-box) arguments)
       (apply #'try-only name arguments)))
@@ -166,8 +169,8 @@ use no constrained face, equivalent ones once.  Other arguments as for PLAN."
   (apply #'try-without-rules (list (cons name +all-matchings+)) box arguments))
 
 (defun try-without-rules (tries box &key (knowledge *knowledge*) (gamma *gamma*) (index :paper))
-  "Return a plan for BOX in which no rule has run.  TRIES is a list of (NAME . SET): the grasp NAME was
-tried in the matchings SET, but for those that use a constrained face, equivalent ones once."
+  "Return a plan for BOX in which no rule has run.  TRIES is a list of (NAME . SET): the grasp NAME
+was tried in the matchings SET, but for those that use a constrained face, equivalent ones once."
   (with-plain-floats
     (let ((tries (loop for (name . set) in tries collect (cons (need-grasp name knowledge) set)))
           (memory (start-plan box knowledge gamma index)))
@@ -198,8 +201,8 @@ tried in the matchings SET, but for those that use a constrained face, equivalen
   (make-memory (knowledge-rulebase knowledge) (make-workspace (knowledge-graspbase knowledge))))
 
 (defun prepare-memory (memory box knowledge gamma &optional (index (first *indices*)))
-  "Make MEMORY, an empty one, ready for a plan for BOX: it holds the preliminary assertions and the facts
-of BOX, and its workspace has tried nothing yet.  Return it."
+  "Make MEMORY, an empty one, ready for a plan for BOX: it holds the preliminary assertions and the
+facts of BOX, and its workspace has tried nothing yet.  Return it."
   (start-workspace (memory-client memory) box gamma index)
   (assert-box memory (knowledge-inputs knowledge) box)
   (when (%box-facts box)
@@ -221,7 +224,8 @@ of BOX, and its workspace has tried nothing yet.  Return it."
     (if margin (box-with-margin box margin) box)))
 
 (defun spare-memory (knowledge)
-  "Return an empty memory for the rules of KNOWLEDGE: one that another plan gave back, or a new one."
+  "Return an empty memory for the rules of KNOWLEDGE: one that another plan gave back, or a new
+one."
   (or (take-from (knowledge-spare knowledge)) (new-memory knowledge)))
 
 (defun start-plan (box knowledge gamma &optional (index :paper))
@@ -289,13 +293,13 @@ Rules that end without KEEP or CANT keep the best."
 (define-condition gamma-error (supergrip-error)
   ((gamma :initarg :gamma :reader gamma-error-gamma))
   (:report (lambda (condition stream)
-             (format stream "gamma is ~a; it is a number from 0, forces alone, to 1, ~
-                             velocities alone" (form-text (gamma-error-gamma condition)))))
+             (format stream "gamma is ~a, but must be a number from 0 (forces alone) to 1 ~
+                             (velocities alone)" (form-text (gamma-error-gamma condition)))))
   (:documentation "The selection parameter is no number from 0 to 1."))
 
 (defun plan-verdict (&optional (plan (last-plan)))
-  "Return :GRASP if PLAN found a grasp, :CANT if the box can't be grasped, :UNFINISHED if PLAN is of a
-run that stands at a break or a step; its best grasp is then the best so far."
+  "Return :GRASP if PLAN found a grasp, :CANT if the box can't be grasped, :UNFINISHED if PLAN is of
+a run that stands at a break or a step; its best grasp is then the best so far."
   (cond ((unfinished-p (need-plan plan)) :unfinished)
         ((plan-best plan) :grasp)
         (t :cant)))
@@ -315,8 +319,8 @@ run that stands at a break or a step; its best grasp is then the best so far."
                #'> :key #'%candidate-quality))
 
 (defun best-grasps (plan &optional most)
-  "Return the possible grasps of PLAN, its best grasp first, the others by quality: at most MOST of them.
-None if the box can't be grasped."
+  "Return the possible grasps of PLAN, its best grasp first, the others by quality: at most MOST of
+them.  None if the box can't be grasped."
   (let ((best (plan-best plan)))
     (and best
          (let ((grasps (cons best (remove best (plan-possible plan)))))

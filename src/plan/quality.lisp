@@ -83,8 +83,8 @@ CENTRE."
           (aref out 5) (* weight (abs (- (* x gy) (* y gx)))))))
 
 (defun put-borne (box x y z out)
-  "Put into OUT what contacts exert about X Y Z, from the centre of BOX, as they bear its weight: the
-opposite of gravity's wrench there, with signs."
+  "Put into OUT what contacts exert about X Y Z, from the centre of BOX, as they bear its weight:
+the opposite of gravity's wrench there, with signs."
   (declare (type box box) (double-float x y z) (type six out))
   (let* ((weight (%box-weight box)) (down (%box-down box)) (centre (%box-mass-centre box))
          (gx (* weight (aref down 0))) (gy (* weight (aref down 1))) (gz (* weight (aref down 2)))

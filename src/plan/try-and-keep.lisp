@@ -3,8 +3,8 @@
 (in-package :supergrip)
 
 (defun constant-matchings (terms)
-  "Return the set of the matchings that give the grasp-faces the faces among TERMS, six of them, NIL for
-any."
+  "Return the set of the matchings that give the grasp-faces the faces among TERMS, six of them, NIL
+for any."
   (matchings-giving (loop for term in terms
                           collect (and term (not (term-variable-p term)) (term-value term 0)))))
 
@@ -50,8 +50,9 @@ return true as the second value."
   (multiple-value-bind (terms bad) (parse-suggestion (rest (action-operands action)) action)
     (unless bad
       (when (zerop (constant-matchings terms))
-        (complain (action-form action) '(:warning "no matching has these faces in these places: N O ~
-                                                   A is a proper rotation of X Y Z")))
+        (complain (action-form action)
+                  '(:warning "no matching has these faces in these places: N O A is a proper ~
+                              rotation of X Y Z")))
       (finish-action action
                      (let ((set (constant-matchings terms))
                            (faces (variable-faces terms)))

@@ -1,8 +1,8 @@
 ;;;; try-steps.lisp -- the steps through which TRY takes a candidate: a grasp in one matching.
 ;;;;
 ;;;; Grasping conditions, offset, positions of the fingers, wrench and twist rotated to X Y Z,
-;;;; lifting, quality.  A candidate that passes is possible; one that fails records the step that it failed.
-;;;; An index says by what a grasp is rated: its last steps are its own.
+;;;; lifting, quality.  A candidate that passes is possible; one that fails records the step that it
+;;;; failed.  An index says by what a grasp is rated.  Each index has last steps of its own.
 
 (in-package :supergrip)
 
@@ -44,7 +44,7 @@ and a log: the best candidate, or NIL."
   "Return the index NAME, a keyword, or signal an ARGUMENT-ERROR."
   (or (loop for index of-type index in *indices*
             when (eq name (index-name index)) return index)
-      (refuse-argument "index is ~a; it is ~{~s~^ or ~}" (form-text name)
+      (refuse-argument "index is ~a, but must be ~{~s~^ or ~}" (form-text name)
                        (mapcar #'index-name *indices*))))
 
 (defun make-six () (make-array 6 :element-type 'double-float :initial-element 0d0))
@@ -54,9 +54,9 @@ and a log: the best candidate, or NIL."
   "All that trying grasps on one box needs and leaves: the registers, what was tried of each grasp
 (a set of matchings), and the BEST candidate.  The arrays are the current candidate's, in the box
 frame: WRENCH and TWIST what the grasp can do, AHEAD and BEHIND what it exerts along and against the
-axes if its WRENCH says so, then BEARING what it exerts against the load and COUNTER the other way; BEARS is that of them, or
-WRENCH, which bears the load; LOAD what gravity asks, SPARE what it leaves of
-WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
+axes if its WRENCH says so, then BEARING what it exerts against the load and COUNTER the other way;
+BEARS is that of them, or WRENCH, which bears the load; LOAD what gravity asks, SPARE what it leaves
+of WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre."
   (box nil :type (or null box)) (gamma 0.5d0 :type double-float)
   (index (first *indices*) :type index) (steps '() :type list)
   (registers nil :type registers)
@@ -111,11 +111,12 @@ they are taken.")
   (fill (workspace-tried workspace) 0)
   workspace)
 
-;;; The table.  Why a candidate failed a step, and by how much, is told in why/failures.lisp, one row each.
+;;; The table.  Why a candidate failed a step, and by how much, is told in why/failures.lisp, one
+;;; row each.
 
 (defstruct (try-step (:constructor make-try-step (outcome name test)))
-  "A step of TRY.  OUTCOME is what a candidate that fails it has; TEST, a function of the candidate and
-the workspace, returns true if it passes.  NAME is a symbol."
+  "A step of TRY.  OUTCOME is what a candidate that fails it has; TEST, a function of the candidate
+and the workspace, returns true if it passes.  NAME is a symbol."
   (outcome nil :type keyword) (name nil :type symbol) (test nil :type function))
 
 (defun add-try-step (step &optional index)
@@ -126,9 +127,9 @@ the workspace, returns true if it passes.  NAME is a symbol."
                                              steps)))))
 
 (defmacro define-step (name outcome (candidate workspace) &body body)
-  "Define the step NAME of TRY, the last one if it is new; NAME may be (NAME INDEX), if only that index,
-a keyword, takes it.  BODY is true if CANDIDATE passes; it leaves in WORKSPACE what later steps need.
-A candidate that fails has OUTCOME, a keyword."
+  "Define the step NAME of TRY, the last one if it is new; NAME may be (NAME INDEX), if only that
+index, a keyword, takes it.  BODY is true if CANDIDATE passes; it leaves in WORKSPACE what later
+steps need.  A candidate that fails has OUTCOME, a keyword."
   (destructuring-bind (name &optional index) (if (listp name) name (list name))
     `(add-try-step (make-try-step ,outcome ',name
                                   (lambda (,candidate ,workspace)
@@ -217,7 +218,8 @@ A candidate that fails has OUTCOME, a keyword."
 
 (declaim (inline turn-entries))
 (defun turn-entries (program candidate workspace out least)
-  "Put the six values of PROGRAM, on the axes of CANDIDATE, into OUT.  NIL if one is not above LEAST."
+  "Put the six values of PROGRAM, on the axes of CANDIDATE, into OUT.  NIL if one is not above
+LEAST."
   (declare (type program program) (type workspace workspace) (type six out) (double-float least))
   (let ((registers (workspace-registers workspace)))
     (and (execute program registers)
@@ -229,8 +231,9 @@ A candidate that fails has OUTCOME, a keyword."
                           t))))))
 
 (defun turn-both-ways (program candidate workspace)
-  "Put the twelve values of PROGRAM, those along the axes of CANDIDATE and those against them, into the
-workspace: AHEAD and BEHIND of the axes of the box, and the lesser of both.  NIL if one is not above 0."
+  "Put the twelve values of PROGRAM, those along the axes of CANDIDATE and those against them, into
+the workspace: AHEAD and BEHIND of the axes of the box, and the lesser of both.  NIL if one is not
+above 0."
   (declare (type program program) (type workspace workspace))
   (let* ((registers (workspace-registers workspace)) (results (program-results program))
          (matching (%candidate-matching candidate))
@@ -258,7 +261,8 @@ workspace: AHEAD and BEHIND of the axes of the box, and the lesser of both.  NIL
 
 (declaim (inline turn-wrench))
 (defun turn-wrench (candidate workspace)
-  "Put what CANDIDATE exerts into the workspace.  NIL if there is an axis along which it exerts nothing."
+  "Put what CANDIDATE exerts into the workspace.  NIL if there is an axis along which it exerts
+nothing."
   (declare (type candidate candidate) (type workspace workspace))
   (let ((program (grasp-wrench (%candidate-grasp candidate))))
     (if (both-ways-p candidate)
@@ -286,8 +290,8 @@ workspace: AHEAD and BEHIND of the axes of the box, and the lesser of both.  NIL
       (setf (aref offset i) (abs (aref offset i))))))
 
 (defun choose-sides (candidate workspace)
-  "Put what CANDIDATE exerts against the load of its axes into BEARING, and the other way into COUNTER.
-Return BEARING."
+  "Put what CANDIDATE exerts against the load of its axes into BEARING, and the other way into
+COUNTER.  Return BEARING."
   (let ((bearing (workspace-bearing workspace)) (counter (workspace-counter workspace))
         (borne (workspace-spare workspace)))
     (put-borne (workspace-box workspace) (%candidate-x candidate) (%candidate-y candidate)
@@ -324,7 +328,8 @@ Return BEARING."
         (incf shares (/ (aref load axis) (aref bearing axis)))))))
 
 (defun put-spare-both-ways (workspace)
-  "Put what BEARING leaves beside the load into SPARE, or COUNTER with gravity's help if that is less."
+  "Put what BEARING leaves beside the load into SPARE, or COUNTER with gravity's help if that is
+less."
   (declare (type workspace workspace))
   (let ((spare (workspace-spare workspace)) (load (workspace-load workspace))
         (bearing (workspace-bearing workspace)) (counter (workspace-counter workspace)))

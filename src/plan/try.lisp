@@ -1,8 +1,8 @@
 ;;;; try.lisp -- TRY: a grasp is tried in each matching that may be possible.
 ;;;;
 ;;;; TRY-MATCHINGS is the paper's function: rules call it, and so does TRY when it is typed.
-;;;; The suggestion and the constrained faces rule some matchings out.  TRY takes each of the others, in
-;;;; order, through the steps of try-steps.lisp.
+;;;; The suggestion and the constrained faces rule some matchings out.  TRY takes each of the
+;;;; others, in order, through the steps of try-steps.lisp.
 
 (in-package :supergrip)
 

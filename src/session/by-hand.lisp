@@ -43,10 +43,10 @@ before it."
             (list (cons (grasp-name grasp) set)))))
 
 (defun try (name &rest arguments)
-  "(TRY NAME [SUGGESTION] &KEY BOX KNOWLEDGE GAMMA INDEX STREAM): try the grasp NAME on the box, without
-rules, in all matchings that use no constrained face, equivalent ones once.  SUGGESTION leaves only
-the matchings that have its faces: six for N1 N2 O1 O2 A1 A2, ? for any, as (? X2 Y2 Y1 ? Z1).
-Print the paper's line for each that is possible, and return all that was tried, candidates.
+  "(TRY NAME [SUGGESTION] &KEY BOX KNOWLEDGE GAMMA INDEX STREAM): try the grasp NAME on the box,
+without rules, in all matchings that use no constrained face, equivalent ones once.  SUGGESTION
+leaves only the matchings that have its faces: six for N1 N2 O1 O2 A1 A2, ? for any, as (? X2 Y2 Y1
+? Z1).  Print the paper's line for each that is possible, and return all that was tried, candidates.
 
 *PLAN* becomes a plan of all that was tried by hand since the last FORWARD-CHAIN or change of the
 box; what was tried again is in it once.  BOX is by default what (setq box ...) gave, other keys are
@@ -98,6 +98,6 @@ Source: the paper, Low-level System."
   "(KEEP 'BEST): print the paper's closing lines for what was tried in PLAN, by hand or by rules.
 Return the best candidate, NIL if none is possible."
   (unless (equal (name-of what) "BEST")
-    (refuse-argument "~a can't be kept: what can be is the best, (keep 'best)" (form-text what)))
+    (refuse-argument "~a can't be kept: only the best can, by (keep 'best)" (form-text what)))
   (plainly (write-verdict (need-plan plan) *standard-output*))
   (plan-best plan))

@@ -19,7 +19,8 @@ SITUATIONS alike, and WHAT is :CANT (whether, and in which words, rules refuse t
         ((> (abs (- (plan-quality old) (plan-quality new))) +tie+) :quality)))
 
 (defun box-known-to (knowledge box other)
-  "Return BOX without the facts that OTHER declares and KNOWLEDGE does not: no rule of it tests them."
+  "Return BOX without the facts that OTHER declares and KNOWLEDGE does not: no rule of it tests
+them."
   (flet ((declared-p (fact knowledge) (fact-predicate fact (knowledge-rulebase knowledge))))
     (let ((facts (remove-if (lambda (fact)
                               (and (declared-p fact other) (not (declared-p fact knowledge))))
@@ -72,8 +73,10 @@ function of the two plans, returns that."
       (dolist (difference differences)
         (write-difference difference stream))
       (plainly
-        (format stream "~d of ~d boxes differ: ~d in verdict, ~d in grasp, ~d in quality.~%"
+        (format stream "~d of ~d box~:*~[es~;~:;es~] ~:[differ~;differs~]: ~d in verdict, ~d in ~
+                        grasp, ~d in quality.~%"
                 (length differences) (length boxes)
+                (member 1 (list (length differences) (length boxes)))
                 (count :verdict differences :key #'difference-what)
                 (count :grasp differences :key #'difference-what)
                 (count :quality differences :key #'difference-what))))
@@ -86,8 +89,8 @@ function of the two plans, returns that."
         (dolist (change changes)
           (format stream "~{~a~^; ~}: ~d situation~:p, as~%  ~a~%" (rule-change-texts change)
                   (rule-change-situations change) (box-text (rule-change-box change))))
-        (format stream "The rules answer something else in ~d of ~d situations~@[ that were drawn ~
-                        with the seed ~d~].~%"
+        (format stream "The rules answer something else in ~d of ~d situation~:p~@[ that were ~
+                        drawn with the seed ~d~].~%"
                 (reduce #'+ changes :key #'rule-change-situations) count seed)))
     (loop for change in changes
           collect (make-plans-difference (rule-change-box change)

@@ -28,8 +28,8 @@ stays, and the KNOWLEDGE-ERROR says so."
              (knowledge-warnings *knowledge*)))
 
 (defun accept-edit (make names)
-  "Return the knowledge that MAKE makes, in which NAMES are new; if it is wrong, CONTINUE, a restart,
-returns the former."
+  "Return the knowledge that MAKE makes, in which NAMES are new; if it is wrong, CONTINUE, a
+restart, returns the former."
   (restart-case (accept-knowledge make (told-of-others names))
     (continue ()
       :report "Leave the knowledge in force as it was."
@@ -45,9 +45,9 @@ returns the former."
                            (gripper (if hand
                                         (hand-gripper hand)
                                         (knowledge-gripper-file *knowledge*))))
-  "Read the files of the knowledge in force again, or the files RULES, GRASPS and GRIPPER, or those of
-the folder HAND, as LOAD-KNOWLEDGE does, and put what they hold into force.  If GRIPPER is NIL, the
-gripper is that of the grasp file.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
+  "Read the files of the knowledge in force again, or the files RULES, GRASPS and GRIPPER, or those
+of the folder HAND, as LOAD-KNOWLEDGE does, and put what they hold into force.  If GRIPPER is NIL,
+the gripper is that of the grasp file.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
   (let ((files (list* rules grasps (and gripper (list gripper)))))
     (put-into-force #'accept-files
                     (lambda () (apply #'build-knowledge (mapcar #'read-data-file files))))))
@@ -62,8 +62,8 @@ gripper is that of the grasp file.  On a KNOWLEDGE-ERROR the former knowledge st
            (name= (second form) (second other)))))
 
 (defun place-of-new (form forms before)
-  "Return where in FORMS the new FORM goes: before the rule BEFORE, or, if that is NIL, a rule before
-the last one, which keeps the best; anything else at the end."
+  "Return where in FORMS the new FORM goes: before the rule BEFORE, or, if that is NIL, a rule
+before the last one, which keeps the best; anything else at the end."
   (cond (before
          (or (position-if (lambda (other) (and (consp (rest other))
                                               (name= (second other) (or (name-of before) ""))))
@@ -158,8 +158,8 @@ given, in a place of its own."
       form))
 
 (defun canonical-definition (form)
-  "Return FORM as the data reader would have returned it, with names for strings.  Of what can't be read,
-the name of the grasp and the key are told."
+  "Return FORM as the data reader would have returned it, with names for strings.  Of what can't be
+read, the name of the grasp and the key are told."
   (handler-bind ((syntax-error
                    (lambda (condition)
                      (when (and (part-p form "SETQ") (proper-list-p form) (namep (second form)))
@@ -210,8 +210,8 @@ FUNCTION changes the forms of the file of its KIND (see FILE-KIND); NAMES are th
 
 (defun forget (name)
   "Take the rule or the grasp NAME, a symbol or a string, or the declaration of the words NAME, out
-of the knowledge in force, and return the new knowledge.  On a KNOWLEDGE-ERROR, as when a rule still tries the grasp, the former stays.
-The files stay as they are: RELOAD-KNOWLEDGE takes it back."
+of the knowledge in force, and return the new knowledge.  On a KNOWLEDGE-ERROR, as when a rule still
+tries the grasp, the former stays.  The files stay as they are: RELOAD-KNOWLEDGE takes it back."
   (let ((declaration (named-declaration name)))
     (if declaration
         (change-knowledge `((:rules ,(lambda (forms)
@@ -226,7 +226,8 @@ The files stay as they are: RELOAD-KNOWLEDGE takes it back."
                                  ,(lambda (forms) (remove-if #'of-name-p forms))))))))))
 
 (defun named-declaration (name)
-  "Return the (INPUT ...) in force of the words NAME, unless a rule or a grasp has this name; or NIL."
+  "Return the (INPUT ...) in force of the words NAME, unless a rule or a grasp has this name; or
+NIL."
   (let* ((words (name-of name))
          (predicate (and words (not (in-force-p words))
                          (find-predicate (knowledge-rulebase *knowledge*) (list words)))))
@@ -303,8 +304,8 @@ to two keys."
   (set name value))
 
 (defun assignment (name value environment)
-  "Return a form that gives the variable NAME the VALUE, a form; or, if that is a definition, NIL and
-forms of the name and the value of a SETQ for EDIT."
+  "Return a form that gives the variable NAME the VALUE, a form; or, if that is a definition, NIL
+and forms of the name and the value of a SETQ for EDIT."
   (cond ((not (and (namep name) (global-name-p name environment (cons 'box *typed-words*))))
          `(cl:setq ,name ,value))
         ((quote-missing-p name value)

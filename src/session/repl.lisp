@@ -33,7 +33,8 @@ weight (see PLAN); :STREAM is where to print, NIL for not at all; :TRACE says ho
                        "(forward-chain box :gamma 0.3)")))
 
 (defun checked-keys (arguments function keys example)
-  "Return ARGUMENTS, keys and values for FUNCTION, if each key is one of KEYS.  EXAMPLE is a right call."
+  "Return ARGUMENTS, keys and values for FUNCTION, if each key is one of KEYS.  EXAMPLE is a right
+call."
   (loop for (key . rest) on arguments by #'cddr
         unless (member key keys)
           do (refuse-argument "~a is not a key of ~a: keys are ~{:~a~^, ~}~@[; a value goes ~

@@ -7,7 +7,8 @@
 many bindings, 3 also every action and the candidates that fail, 4 also what meets each clause.")
 
 (defvar *traced* '() "The names of the rules and grasps that are traced, strings.")
-(defvar *breaks* '() "The names of rules and grasps, and the canonical facts, on which a run stops.")
+(defvar *breaks* '() "The names of rules and grasps, and the canonical facts, on which a run
+stops.")
 
 (defun check-trace-level (level)
   "Return the level of trace LEVEL, 0 for NIL."
@@ -24,8 +25,8 @@ many bindings, 3 also every action and the candidates that fail, 4 also what mee
         (error 'no-rule-error :name name :known (known-names *knowledge*)))))
 
 (defun trace-rule (&rest names)
-  "Trace the rules NAMES in full, whatever the level: at level 0, they alone are traced.  Returns the
-names of all that is traced."
+  "Trace the rules NAMES in full, whatever the level: at level 0, they alone are traced.  Returns
+the names of all that is traced."
   (setf *traced* (union *traced* (mapcar #'check-name names) :test #'string=)))
 
 (defun trace-grasp (&rest names)
@@ -43,22 +44,23 @@ the names of all that is traced."
   (apply #'untrace-rule names))
 
 (defun break-on (what)
-  "Stop a run of FORWARD-CHAIN in the debugger before the rule WHAT, a symbol or a string, after each
-candidate of the grasp WHAT, or when the fact WHAT, as '(PARALLEL (Y2 Y1)), becomes known.  Returns all
-breaks."
+  "Stop a run of FORWARD-CHAIN in the debugger before the rule WHAT, a symbol or a string, after
+each candidate of the grasp WHAT, or when the fact WHAT, as '(PARALLEL (Y2 Y1)), becomes known.
+Returns all breaks."
   (unless (fact-form-p what)
     (check-name what))
   (pushnew (break-text what) *breaks* :test #'string=)
   *breaks*)
 
 (defun break-text (what)
-  "Return the text that stands for WHAT, a name or a fact with its faces in any order, among *BREAKS*."
+  "Return the text that stands for WHAT, a name or a fact with its faces in any order, among
+*BREAKS*."
   (cond ((name-of what))
         ((consp what)
          (multiple-value-call #'sorted-fact-text
            (parse-fact what (knowledge-rulebase *knowledge*))))
-        (t (refuse-argument "~a is not a break: a break is the name of a rule or a grasp, or a fact, such as ~
-                             (PARALLEL (Y2 Y1))"
+        (t (refuse-argument "~a is not a break: a break is the name of a rule or a grasp, or a ~
+                             fact, such as (PARALLEL (Y2 Y1))"
                             (form-text what)))))
 
 (defun sorted-fact-text (predicate face-list)
@@ -81,7 +83,8 @@ rule, CONTINUE to the next break."))
 (defvar *stepping* nil "True while a run stops before every rule.")
 
 (defun pause (plan control &rest arguments)
-  "Stop in the debugger, saying what CONTROL and ARGUMENTS say; questions asked there are about PLAN."
+  "Stop in the debugger, saying what CONTROL and ARGUMENTS say; questions asked there are about
+PLAN."
   (let ((condition (make-condition 'chain-break :text (apply #'plain-text control arguments)))
         (*plan* plan))
     (restart-case (progn (signal condition) (invoke-debugger condition))
@@ -130,7 +133,8 @@ rule, CONTINUE to the next break."))
             (symbol-name step) (candidate-matching candidate) text)))
 
 (defun write-tried (candidate plan level traced stream)
-  "Write CANDIDATE of PLAN as LEVEL asks; in full if its grasp, or the rule that tried it, is TRACED."
+  "Write CANDIDATE of PLAN as LEVEL asks; in full if its grasp, or the rule that tried it, is
+TRACED."
   (let ((traced (or traced (traced-p (candidate-grasp candidate)))))
     (if (candidate-quality candidate)
         (when (or traced (plusp level)) (write-candidate candidate stream))
@@ -219,8 +223,8 @@ and the memory that the rules run on.  RUN-OBSERVED gets the other ARGUMENTS."
 ;;; Counts
 
 (defun rule-counts (&optional (plan (last-plan)))
-  "Print and return how often each rule of PLAN was matched and fired: a list of (NAME MATCHES FIRINGS
-FACTS), empty if no rule ran.  MATCHES counts the bindings that met its first clause, its
+  "Print and return how often each rule of PLAN was matched and fired: a list of (NAME MATCHES
+FIRINGS FACTS), empty if no rule ran.  MATCHES counts the bindings that met its first clause, its
 first two, and so on; FIRINGS its bindings; FACTS what it added."
   (let* ((plan (need-plan plan))
          (counts (and (not (plan-tries plan)) (count-rules plan))))

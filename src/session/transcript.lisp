@@ -13,7 +13,8 @@
   "Write the line of CANDIDATE, if it is possible."
   (when (candidate-quality candidate)
     (format stream "(~a IS O.K. Q~a~a, MATCHING: (~{~a~^ ~}))~%"
-            (candidate-grasp candidate) (quality-sign candidate) (three-decimals (candidate-quality candidate))
+            (candidate-grasp candidate) (quality-sign candidate)
+            (three-decimals (candidate-quality candidate))
             (candidate-matching candidate))))
 
 (defun write-verdict (plan stream)

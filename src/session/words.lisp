@@ -40,8 +40,8 @@ the current package.  KNOWLEDGE-RULES gives objects."
                                       knowledge "(describe-rule name) shows one rule")))))
 
 (defun grasps (&optional (knowledge *knowledge*))
-  "Return the names of the grasps of KNOWLEDGE, in order, symbols of the current package.  GRASP gives
-what they stand for, KNOWLEDGE-GRASPS objects."
+  "Return the names of the grasps of KNOWLEDGE, in order, symbols of the current package.  GRASP
+gives what they stand for, KNOWLEDGE-GRASPS objects."
   (as-typed (mapcar #'grasp-name
                     (knowledge-grasps (check-knowledge-argument
                                        knowledge "(grasp name) shows one grasp")))))

@@ -1,5 +1,5 @@
-;;;; exact-statics.lisp -- what contacts can really do, asked with lists; what is asked is checked
-;;;; here.
+;;;; exact-statics.lisp -- what contacts can really do: questions with lists as arguments, which are
+;;;; checked here.
 
 (in-package :supergrip-statics)
 
@@ -19,8 +19,8 @@
   "Return OBJECT, WHAT it is, as a six."
   (let ((numbers (as-numbers object 6)))
     (unless numbers
-      (refuse-argument "~a is ~a; it is a list of six numbers: forces along X Y Z, torques ~
-                        about X Y Z"
+      (refuse-argument "~a is ~a, but must be a list of six numbers: forces along X Y Z, ~
+                        torques about X Y Z"
                        what (form-text object)))
     (map 'six #'identity numbers)))
 
@@ -28,14 +28,15 @@
   "Return OBJECT, WHAT it is, as a double not below 0 and, if BELOW is 1, below that."
   (let ((number (and (realp object) (as-double object))))
     (unless (and number (>= number 0d0) (or (null below) (< number below)))
-      (refuse-argument "~a is ~a; it is a number from 0~:[~; to below 1~]" what (form-text object)
-                       below))
+      (refuse-argument "~a is ~a, but must be a number ~:[from 0~;not below 0 and below 1~]"
+                       what (form-text object) below))
     number))
 
 (defun check-budget (budget)
   (if (typep budget '(and fixnum (integer 0)))
       budget
-      (refuse-argument "budget is ~a; it is a number of boxes, such as 100000" (form-text budget))))
+      (refuse-argument "budget is ~a, but must be a number of boxes, such as 100000"
+                       (form-text budget))))
 
 (defun check-contact (contact number)
   "Return place and inward unit normal of CONTACT, the one of NUMBER: six doubles, a list."
@@ -55,7 +56,7 @@
   "Return the grip of CONTACTS, a list of (position inward-normal), with the friction U and V."
   (let ((count (proper-length contacts)))
     (unless (typep count '(integer 1 1000))
-      (refuse-argument "contacts are ~a; they are a list of (position inward-normal), as ~
+      (refuse-argument "contacts are ~a, but must be a list of (position inward-normal), as ~
                         (((0 1 0) (0 -1 0)) ((0 -1 0) (0 1 0))), at most 1000"
                        (form-text contacts)))
     (let ((grip (make-grip count (check-number u "u") (check-number v "v") coupled)))
@@ -115,8 +116,9 @@ Source: docs/physics.md, what the contacts can really do."
           (absolute (check-number absolute "absolute"))
           (budget (check-budget budget)))
       (when (needs-nothing-p need)
-        (refuse-argument "the task needs no force and no torque, so it has no radius; whether ~
-                          the contacts hold the weight, (holds-p contacts u v gravity) says"))
+        (refuse-argument "the task needs no force and no torque, so it has no radius; ~
+                          (holds-p contacts u v gravity) says whether the contacts hold the ~
+                          weight"))
       (multiple-value-bind (upper lower worst) (grip-radius grip need gravity gap absolute budget)
         (values (check-result upper) (check-result lower) (as-list worst))))))
 
@@ -209,7 +211,8 @@ there, s vectors of signs: exactly the radius in the cross-polytope that the cap
 where a capacity is not above 0.  Source: docs/physics.md."
   (without-float-traps
     (let ((place (or (as-numbers offset 3)
-                     (refuse-argument "offset is ~a; it is a list of three numbers, along X Y Z"
+                     (refuse-argument "offset is ~a, but must be a list of three numbers, along ~
+                                      X Y Z"
                                       (form-text offset)))))
       (check-result (apply #'sure (check-six capacities "capacities")
                            (map 'six #'abs (check-six need "need")) (check-six gravity "gravity")

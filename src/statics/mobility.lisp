@@ -32,7 +32,8 @@
     (vector-3 (part 1 2) (part 2 0) (part 0 1))))
 
 (defun across-3 (vector approach)
-  "Return the direction of VECTOR across the unit vector APPROACH, of length 1, or NIL if it has none."
+  "Return the direction of VECTOR across the unit vector APPROACH, of length 1, or NIL if it has
+none."
   (declare (type vector-3 vector approach))
   (let* ((along (dot-3 vector approach))
          (part (map 'vector-3 (lambda (a b) (- a (* along b))) vector approach))
@@ -45,8 +46,8 @@
 (defstruct (finger (:conc-name finger-) (:copier nil))
   "A finger at rest.  PLACE is that of its tip, NORMAL inward there, OUTWARD the direction from the
 middle of the palm to its base.  Once the palm is placed: SINES of the first joint and of the tip's
-place seen from the base: INNER and TIP are vectors (outward, along the approach) of the second link,
-and from the base to the tip; SIDE, the direction of the tip's motion as the base turns."
+place seen from the base: INNER and TIP are vectors (outward, along the approach) of the second
+link, and from the base to the tip; SIDE, the direction of the tip's motion as the base turns."
   (place nil :type vector-3) (normal nil :type vector-3) (outward nil :type vector-3)
   (side nil :type vector-3)
   (lever 0d0 :type double-float) (depth 0d0 :type double-float)
@@ -55,8 +56,8 @@ and from the base to the tip; SIDE, the direction of the tip's motion as the bas
 
 (defun outward-directions (normals approach)
   "Return the direction of the base of each finger from the middle of the palm, unit vectors across
-APPROACH.  A finger closes along its inward normal; one whose normal is along APPROACH stands opposite
-to the others."
+APPROACH.  A finger closes along its inward normal; one whose normal is along APPROACH stands
+opposite to the others."
   (let* ((directions (loop for normal in normals
                            collect (across-3 (map 'vector-3 #'- normal) approach)))
          (sum (reduce (lambda (a b) (map 'vector-3 #'+ a b)) (remove nil directions)
@@ -72,8 +73,8 @@ to the others."
 
 (defun palm-depth (levers length clearance)
   "Return how far the palm is behind the grasp centre: half of what the finger that reaches least
-reaches, or where it clears the face, CLEARANCE away.  LEVERS are the distances of the tips from their
-bases across the approach."
+reaches, or where it clears the face, CLEARANCE away.  LEVERS are the distances of the tips from
+their bases across the approach."
   (max (/ (loop for lever in levers
                 minimize (+ length (root-posit (- (* length length) (* lever lever)))))
           2)
@@ -95,8 +96,8 @@ bases across the approach."
     finger))
 
 (defun fingers-at (places normals approach face length distance)
-  "Return the fingers, of two links of LENGTH, whose bases stand DISTANCE apart, at PLACES with the inward
-NORMALS, the palm over the face that is FACE behind the grasp centre, against APPROACH."
+  "Return the fingers, of two links of LENGTH, whose bases stand DISTANCE apart, at PLACES with the
+inward NORMALS, the palm over the face that is FACE behind the grasp centre, against APPROACH."
   (let* ((outward (outward-directions normals approach))
          (levers (loop for place in places for out in outward
                        collect (- (dot-3 place out) (/ distance 2))))
@@ -113,8 +114,8 @@ NORMALS, the palm over the face that is FACE behind the grasp centre, against AP
 ;;; How fast
 
 (defun joint-rates (finger out along)
-  "Return the rates of the two joints of FINGER whose tip moves by OUT outward and ALONG the approach,
-for each unit of it; NIL if there are none."
+  "Return the rates of the two joints of FINGER whose tip moves by OUT outward and ALONG the
+approach, for each unit of it; NIL if there are none."
   (declare (double-float out along))
   ;; A rate r turns a vector (lever, depth) by r (-depth, lever): both joints turn towards outward.
   (let* ((l1 (finger-lever finger)) (d1 (finger-depth finger))
@@ -127,8 +128,8 @@ for each unit of it; NIL if there are none."
 
 (defun finger-speed (finger velocity rotation approach pivot)
   "Return how many times FINGER can move its tip by VELOCITY, and what it holds by ROTATION, at the
-most: infinity if it need not move.  PIVOT is the greatest rotation of the tip about its normal that no
-joint drives."
+most: infinity if it need not move.  PIVOT is the greatest rotation of the tip about its normal that
+no joint drives."
   (declare (type vector-3 velocity rotation approach) (double-float pivot))
   (let ((most sb-ext:double-float-positive-infinity)
         (turn (dot-3 velocity (finger-side finger)))
@@ -157,7 +158,8 @@ joint drives."
     vector))
 
 (defun mobility-entry (fingers approach k length)
-  "Return the mobility of FINGERS, of two links of LENGTH, along axis K, 0 to 2, or about it, 3 to 5."
+  "Return the mobility of FINGERS, of two links of LENGTH, along axis K, 0 to 2, or about it, 3 to
+5."
   (let* ((still (vector-3 0d0 0d0 0d0)) (about (>= k 3)) (axis (unit-3 (mod k 3)))
          (rotation (if about axis still))
          (velocities (loop for finger in fingers
@@ -170,8 +172,8 @@ joint drives."
     (min 1d0 (/ speed (if about +rotation+ length)))))
 
 (defun mobility (places normals approach face length distance)
-  "Return how well fingers move what they hold along X Y Z and about X Y Z: six numbers from 0, not at
-all, to 1, freely: a list.
+  "Return how well fingers move what they hold along X Y Z and about X Y Z: six numbers from 0, not
+at all, to 1, freely: a list.
 
 PLACES, NORMALS  lists of arrays of three doubles: the tips from the grasp centre, in cm, and their
                  inward unit normals.
@@ -179,10 +181,10 @@ APPROACH         the unit vector from the palm to the grasp centre.
 FACE             how far the face under the palm is from the grasp centre, in cm.
 LENGTH, DISTANCE of each of a finger's two links; between the bases of opposed fingers: in cm.
 
-An entry is s / LENGTH along an axis, s / (2 rad/s) about one, at most 1: s is the greatest speed for
-which each finger has joint rates of at most 1 that move its tip along, and for which the rotation about
-the normal that its joints do not drive is at most 0.4 rad/s if no tip moves, else 1 rad/s.  A finger that
-does not reach its place moves nothing.
+An entry is s / LENGTH along an axis, s / (2 rad/s) about one, at most 1: s is the greatest speed
+for which each finger has joint rates of at most 1 that move its tip along, and for which the
+rotation about the normal that its joints do not drive is at most 0.4 rad/s if no tip moves, else 1
+rad/s.  A finger that does not reach its place moves nothing.
 Source: docs/physics.md, how entries are computed from the contacts."
   (without-float-traps
     (let ((fingers (fingers-at places normals approach face length distance)))

@@ -1,10 +1,11 @@
 ;;;; nearest-wrench.lisp -- whether fingers can exert one wrench, how, and how far they reach along
 ;;;; one.
 ;;;;
-;;;; Wolfe's method finds the wrench of a grip that is nearest to a target: the nearest mixture of
-;;;; at most seven wrenches is kept; the grip's greatest wrench towards the target joins them, and
-;;;; those that the nearest mixture does without leave.  If the target can't be reached, the way to
-;;;; it from the nearest wrench is a motion that shows it.
+;;;; Wolfe's method finds the wrench of a grip that is nearest to a target.  It keeps at most seven
+;;;; wrenches, and their mixture that is nearest to the target.  In each step the grip's greatest
+;;;; wrench towards the target joins them, and those leave that the nearest mixture does not need.
+;;;; If the target can't be reached, the way to it from the nearest wrench is a motion that shows
+;;;; it.
 
 (in-package :supergrip-statics)
 
@@ -242,8 +243,8 @@ them all."
                   (reached-p))))))
 
 (defun grip-closed-p (grip)
-  "True if GRIP is closed: it can exert a wrench in every direction.  One that reaches less than 1e-5
-as far in one direction as in the mean is not, nor one that can't be computed."
+  "True if GRIP is closed: it can exert a wrench in every direction.  One that reaches less than
+1e-5 as far in one direction as in the mean is not, nor one that can't be computed."
   (without-float-traps
     (and (computable-p grip (make-six))
          (spans-all-p grip))))

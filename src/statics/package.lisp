@@ -13,5 +13,6 @@
    #:sure-radius
    ;; of arrays, without checks
    #:grip #:make-grip #:set-finger #:grip-count #:grip-friction #:grip-soft-friction
-   #:computable-p #:same-contacts-p #:grip-coupled #:grip-power #:grip-radius #:grip-holds-p #:grip-closed-p #:grip-forces #:grip-squeeze
+   #:computable-p #:same-contacts-p #:grip-coupled #:grip-power #:grip-radius #:grip-holds-p
+   #:grip-closed-p #:grip-forces #:grip-squeeze
    #:grip-least-friction #:grip-entry #:grip-entries #:mobility #:find-in #:sure #:six #:make-six))

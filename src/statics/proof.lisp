@@ -9,11 +9,12 @@
 ;;;; can exert gives SUPPLY >= w.x for all x, and w.x - GOAL DEMAND is concave.  So if it is not
 ;;;; below 0 at the vertices of a box, the box is proved.  A box inherits the wrench of the one that
 ;;;; it was cut from, and improves it by mixing others in, so that the squares of what fails at the
-;;;; vertices become least.  The first one is TOUCH, where the task would touch the border of what
-;;;; the fingers can exert in the worst motion met.  The next ones are the greatest in the mean of
-;;;; the vertices where the box fails, weighed by how much it fails there.  If even the greatest
-;;;; power in the mean is less than the mean of GOAL DEMAND, no wrench proves the box.  Then, or
-;;;; when it fails slowly, the box is cut across an edge: where W and the task differ most over it.
+;;;; vertices become least.  The first wrench that is mixed in is TOUCH: there the task would touch
+;;;; the border of what the fingers can exert in the worst motion met.  Each later one is the
+;;;; greatest wrench in the mean of the vertices where the box fails, weighed by how much it fails
+;;;; there.  If even the greatest power in the mean is less than the mean of GOAL DEMAND, no wrench
+;;;; proves the box.  Then, or when it fails slowly, the box is cut across an edge: where W and the
+;;;; task differ most over it.
 ;;;;
 ;;;; With FRICTION sought, GOAL is 1, and the friction U grows instead of GOAL falling: it is kept a
 ;;;; little above LEAST, the greatest friction that a motion was found to need.

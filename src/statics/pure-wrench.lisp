@@ -1,10 +1,10 @@
 ;;;; pure-wrench.lisp -- how far a closed grip reaches along one wrench, to ten places.
 ;;;;
-;;;; The greatest multiple of a wrench d is the least of h(q), the fingers' power, over the motions q
-;;;; with q.d = 1.  h has edges; so each finger is kept from its limits by logarithms, MU times as
-;;;; much, and Newton's method finds the least for ever smaller MU (a barrier method).  There the
-;;;; fingers' forces make a multiple of d and nothing else: that is a lower bound, and h(q) is an upper
-;;;; one.  They differ by 15 MU for three fingers.
+;;;; The greatest multiple of a wrench d is the least of h(q), the fingers' power, over the motions
+;;;; q with q.d = 1.  h has edges; so logarithms with the weight MU keep each finger from its
+;;;; limits, and Newton's method finds the least for ever smaller MU (a barrier method).  There the
+;;;; fingers' forces make a multiple of d and nothing else: that is a lower bound, and h(q) is an
+;;;; upper one.  They differ by 15 MU for three fingers.
 
 (in-package :supergrip-statics)
 
@@ -12,18 +12,19 @@
 (defconstant +most-steps+ 300 "How many steps of Newton's are tried, at most, for one wrench.")
 
 (defstruct (barrier (:copier nil) (:conc-name b-))
-  "The search with GRIP: the motion Q, of which component K stays as it is, and the wrench W that the
-fingers make.  Its derivative by Q is Bt B, and it is Bt c: B and then c are COLUMNS of ROWS numbers, that
-of component K the last of B's.  TRIANGLE is what makes them of orthogonal columns, STEP what to go."
+  "The search with GRIP: the motion Q, of which component K stays as it is, and the wrench W that
+the fingers make.  Its derivative by Q is Bt B, and it is Bt c: B and then c are COLUMNS of ROWS
+numbers, that of component K the last of B's.  TRIANGLE is what makes them of orthogonal columns,
+STEP what to go."
   (grip nil :type grip) (mu 1d0 :type double-float) (k 0 :type (integer 0 5))
   (q (make-six) :type six) (w (make-six) :type six) (step (make-six) :type six)
   (rows 0 :type fixnum) (columns nil :type doubles) (triangle (make-doubles 49) :type doubles))
 
 (declaim (inline pressing))
 (defun pressing (y slip twist mu)
-  "Return how much a finger presses, above 0 and below 1, where it would move by Y along its normal, and
-its friction does SLIP and TWIST at most: the root n of y + (3 mu + R(slip n) + R(twist n))/n - mu/(1-n),
-R(x) being the root of mu^2 + x^2."
+  "Return how much a finger presses, above 0 and below 1, where it would move by Y along its normal,
+and its friction does SLIP and TWIST at most: the root n of y + (3 mu + R(slip n) + R(twist n))/n -
+mu/(1-n), R(x) being the root of mu^2 + x^2."
   (declare (double-float y) (type not-negative slip twist mu) (optimize speed))
   (let* ((c (+ y slip twist)) (b (- c (* 6d0 mu)))
          (root (sqrt (the not-negative (+ (* b b) (* 20d0 mu (abs c))))))
@@ -86,8 +87,8 @@ changes with N, how much with VELOCITY, and with a velocity across it."
 
 (declaim (inline put-row))
 (defun put-row (b row factor start normal first second third rest)
-  "Let ROW of B be FACTOR times the sum of the rows of the grip from START with the factors NORMAL to THIRD,
-and c there be REST."
+  "Let ROW of B be FACTOR times the sum of the rows of the grip from START with the factors NORMAL
+to THIRD, and c there be REST."
   (declare (type barrier b) (fixnum row start) (double-float factor normal first second third rest)
            (optimize speed))
   (let ((columns (b-columns b)) (count (b-rows b)) (rows (grip-rows (b-grip b))))
@@ -136,8 +137,8 @@ and c there be REST."
                                 (* torque (aref rows (+ start 18 k)))))))))))
 
 (defun make-orthogonal (b)
-  "Make the first five columns of B orthogonal and of length 1, each of what those before it leave of it.
-TRIANGLE says how they were made, and what of the others they take."
+  "Make the first five columns of B orthogonal and of length 1, each of what those before it leave
+of it.  TRIANGLE says how they were made, and what of the others they take."
   (declare (type barrier b) (optimize speed))
   (let ((columns (b-columns b)) (count (b-rows b)) (triangle (b-triangle b)))
     (dotimes (j 5)
@@ -158,11 +159,12 @@ TRIANGLE says how they were made, and what of the others they take."
                          (incf sum (* (aref columns (+ start i)) (aref columns (+ other i)))))
                        (setf (aref triangle (+ (* 7 j) l)) sum)
                        (dotimes (i count)
-                         (decf (aref columns (+ other i)) (* sum (aref columns (+ start i)))))))))))))
+                         (decf (aref columns (+ other i))
+                               (* sum (aref columns (+ start i)))))))))))))
 
 (defun solve-step (b)
-  "Put Newton's step, which leaves component K alone, into STEP; return the square of how far that is, in
-MU, and by how much component K of W grows, if the others become 0."
+  "Put Newton's step, which leaves component K alone, into STEP; return the square of how far that
+is, in MU, and by how much component K of W grows, if the others become 0."
   (declare (type barrier b) (optimize speed))
   (make-orthogonal b)
   (let ((triangle (b-triangle b)) (step (b-step b)) (square 0d0) (growth 0d0))
@@ -195,8 +197,8 @@ shorter than 1."
       (values length (+ (aref (b-w b) (b-k b)) (the double-float growth))))))
 
 (defun pure-wrench (grip k sign)
-  "Return how far GRIP, a closed one, reaches along axis K, 0 to 5, in the direction of SIGN: what it
-surely exerts, and what it surely can't exceed; NIL if that was not found."
+  "Return how far GRIP, a closed one, reaches along axis K, 0 to 5, in the direction of SIGN: what
+it surely exerts, and what it surely can't exceed; NIL if that was not found."
   (declare (type grip grip) (type (integer 0 5) k) (double-float sign))
   (let* ((rows (* 4 (grip-count grip)))
          (b (make-barrier :grip grip :k k :rows rows :columns (make-doubles (* 7 rows)))))

@@ -34,8 +34,8 @@ frame.  The wrenches SUPPLY and DEMAND among SLOTS are not in the frame yet; mir
     (values (min power 0d0) (min power 0d0) witness 0)))
 
 (defun needs-unit (need)
-  "Return the power of 2 that the greatest of NEED is at least, and less than twice as much as.  Needs
-as small as 1e-300 have no squares; in this unit they have."
+  "Return the power of 2 that the greatest of NEED is at least, and less than twice as much as.
+Needs as small as 1e-300 have no squares; in this unit they have."
   (declare (type six need))
   (scale-float 1d0 (1- (nth-value 1 (decode-float (reduce #'max need))))))
 

@@ -1,8 +1,8 @@
 ;;;; round-frame.lisp -- coordinates in which a proof is short: what a grip exerts is round in them.
 ;;;;
-;;;; A frame is a matrix K.  A wrench w is K w in it, a motion x is q = Kt x outside it, so power
-;;;; is the same.  Two forms become diagonal together: the second moment of the wrenches that a
-;;;; grip exerts becomes the unit matrix, the square of the task's size diag(a).
+;;;; A frame is a matrix K.  A wrench w is K w in it, a motion x is q = Kt x outside it, so power is
+;;;; the same.  Two forms become diagonal together: the second moment of the wrenches that a grip
+;;;; exerts becomes the unit matrix, and the square of the task's size becomes diag(a).
 
 (in-package :supergrip-statics)
 

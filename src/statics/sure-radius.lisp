@@ -1,8 +1,8 @@
 ;;;; sure-radius.lisp -- a radius that the contacts surely bear, from six capacities alone.
 ;;;;
-;;;; Six capacities, each good both ways, span a cross-polytope of wrenches that the contacts can
-;;;; exert: those whose shares, wrench / capacity, add up to 1 at most.  The sure radius is that of
-;;;; the greatest task ellipsoid, about the weight's wrench, inside it.
+;;;; Six capacities, each valid in both directions, span a cross-polytope of wrenches that the
+;;;; contacts can exert: those whose shares, wrench / capacity, add up to 1 at most.  The sure
+;;;; radius is that of the greatest task ellipsoid, about the weight's wrench, inside it.
 
 (in-package :supergrip-statics)
 

@@ -1,4 +1,4 @@
-;;;; changes.lisp -- in which situations two rule bases answer something else.
+;;;; changes.lisp -- in which situations two rule bases give different answers.
 
 (in-package :supergrip)
 

@@ -1,9 +1,9 @@
 ;;;; quantities.lisp -- the numbers of a box, and the classes of each that rules can tell apart.
 ;;;;
-;;;; Nothing here knows what the preliminary assertions are.  Each number of a box is moved
-;;;; through many values: among them, on both sides, the gripper's dimensions and the numbers
-;;;; that the tests of the assertions name.  Where what the rules see changes between two values,
-;;;; the place is found by halving, to the last bit.
+;;;; Nothing here knows what the preliminary assertions are.  Each number of a box is moved through
+;;;; many values.  Among them are values on both sides of the gripper's dimensions, and of the
+;;;; numbers that the tests of the assertions name.  Where what the rules see changes between two
+;;;; values, the place is found by halving, to the last bit.
 
 (in-package :supergrip)
 

@@ -15,7 +15,7 @@ a box to the numbers that were searched."
   boxes all-boxes (numbers '()))
 
 (defmethod topic ((explanation verification))
-  (format nil "~d situations, ~d findings" (verification-situations explanation)
+  (format nil "~d situation~:p, ~d finding~:p" (verification-situations explanation)
           (length (verification-findings explanation))))
 
 (defun silent-findings (situations)
@@ -153,21 +153,23 @@ and what is said if there are none.  Those from :NOTHING-SUGGESTED on are search
                         follows is true of ~d that were drawn with the seed ~d; nothing is ~
                         proved.~%"
                 *situation-limit* situations seed)
-        (format stream "The rules alone.  They can tell ~d situations apart, ~d up to the ~
+        (format stream "The rules alone.  They can tell ~d situation~:p apart, ~d up to the ~
                         rotations of the box.  What follows is proved for all of them.~%"
                 situations (verification-kinds verification))))
   (when (verification-several verification)
     (format stream "Situations were searched where ~a depends on several numbers of the box.~%"
             (listed (verification-several verification))))
   (when (verification-unseen verification)
-    (format stream "No box was found of which ~{~a~^ or ~} is true: of such boxes nothing is proved.~%"
+    (format stream "No box was found of which ~{~a~^ or ~} is true: of such boxes nothing is ~
+                    proved.~%"
             (verification-unseen verification))))
 
 (defun write-search (verification stream)
   "Write for how many boxes what is said of the grasps is true."
   (let ((boxes (verification-boxes verification)) (all (verification-all-boxes verification)))
-    (format stream "~%Rules and grasps.  Every grasp was tried in every matching on ~d boxes~@[ ~
-                    of ~d, drawn with the seed ~d~].  This is searched, not proved.~%"
+    (format stream "~%Rules and grasps.  Every grasp was tried in every matching on ~d ~
+                    box~:*~[es~;~:;es~]~@[ of ~d, drawn with the seed ~d~].  This is searched, not ~
+                    proved.~%"
             boxes (and (< boxes all) all) *situation-seed*)
     (loop for (key . numbers) in (verification-numbers verification)
           do (format stream "  ~a: ~{~a~^ ~}~%" key (mapcar #'exact-number-text numbers)))))

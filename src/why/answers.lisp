@@ -15,7 +15,8 @@
              (with-slots (name known hint kind) condition
                (cond (hint (format stream "~a is ~a" (form-text name) hint))
                      ((null (name-of name))
-                      (format stream "~a is not a name: rules and grasps are named by symbols or strings"
+                      (format stream "~a is not a name: rules and grasps are named by symbols or ~
+                                      strings"
                               (form-text name)))
                      (t (format stream "there is no ~a ~a~a; there are ~a~@[~%~a~]" kind
                                 (form-text (make-symbol (name-of name)))

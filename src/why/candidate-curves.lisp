@@ -37,8 +37,8 @@
   "One value of the box of PLAN, that of the key ROW, at INDEX if it has several, which varies: it
 is FROM now, and may be LEAST to MOST.  KNOWN maps what is known of a box (see LINE-FACTS) to what
 follows from it; FORMS maps a grasp and the curves that its forms start from to what they give;
-COUNT counts the intervals looked at; SURE is false if some were left out; DEAR is true if plans along
-it take milliseconds."
+COUNT counts the intervals looked at; SURE is false if some were left out; DEAR is true if plans
+along it take milliseconds."
   plan row (index 0) (from 0d0) (least 0d0) (most 0d0) (known '())
   (forms (make-hash-table :test #'equal)) (count 0 :type fixnum) (sure t) (dear nil))
 
@@ -165,8 +165,8 @@ nothing is known."
                             (constant-curve -1d-300)))))))
 
 (defun wrench-curves (sheet)
-  "Return what the grasp of SHEET exerts, six curves.  If it has twelve entries, put them, those along
-the axes of the box and those against them, into SHEET, and return the lesser of both."
+  "Return what the grasp of SHEET exerts, six curves.  If it has twelve entries, put them, those
+along the axes of the box and those against them, into SHEET, and return the lesser of both."
   (let* ((entries (sheet-six sheet (draft-wrench (sheet-draft sheet))))
          (others (nthcdr 6 entries)) (matching (sheet-matching sheet)))
     (if (null others)
@@ -219,8 +219,8 @@ IDENTITY."
                     (as-curve (- has load)))))
 
 (defun borne-curves (sheet)
-  "Return the six curves whose signs say which way the load of SHEET is borne: as PUT-BORNE, for a weight
-of 1."
+  "Return the six curves whose signs say which way the load of SHEET is borne: as PUT-BORNE, for a
+weight of 1."
   (let ((down (%box-down (sheet-box sheet))))
     (flet ((down-curve (axis) (constant-curve (aref down axis))))
       (append (loop for axis below 3 collect (constant-curve (- (aref down axis))))

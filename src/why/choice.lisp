@@ -9,9 +9,9 @@ measure: :FORCE, :TORQUE or NIL."
   axis has needs radius measure)
 
 (defstruct (choice (:include explanation))
-  "Why the best grasp of PLAN is the best.  SENTENCE says how it holds the box; FORCE and VELOCITY are
-LIMITs or NIL; SURE is CANDIDATE-SURE of the best; TRUTH is the EXACT-LIMIT of its forces, whatever
-the index is, or NIL; DEMAND is a DEMAND, of absolute
+  "Why the best grasp of PLAN is the best.  SENTENCE says how it holds the box; FORCE and VELOCITY
+are LIMITs or NIL; SURE is CANDIDATE-SURE of the best; TRUTH is the EXACT-LIMIT of its forces,
+whatever the index is, or NIL; DEMAND is a DEMAND, of absolute
 needs, or NIL; RUNNER-UP is the next candidate or NIL, MARGIN its distance in Q; CHANGES is a
 list of CHANGEs, the smallest first; STEPPED are the names of values that were only looked at in
 steps."
@@ -54,14 +54,15 @@ numbers of MEASURE."
                 :needs (in-units (aref needs axis) measure) :radius radius :measure measure)))
 
 (defstruct (exact-limit (:include limit))
-  "What limits an exact radius: AXIS is that of the greatest component of MOTION, the worst, in which
-the task NEEDS the power 1 times the radius; HAS is a list of what pressing, friction, the fingertips'
-torque and the weight give there, together UPPER; RADIUS is what the grasp counts with, and CERTIFIED
-the proved one, or NIL.  DIRECTION is MOTION in words."
+  "What limits an exact radius: AXIS is that of the greatest component of MOTION, the worst, in
+which the task NEEDS the power 1 times the radius; HAS is a list of what pressing, friction, the
+fingertips' torque and the weight give there, together UPPER; RADIUS is what the grasp counts with,
+and CERTIFIED the proved one, or NIL.  DIRECTION is MOTION in words."
   motion direction upper certified)
 
 (defun exact-force-limit (candidate plan)
-  "Return the EXACT-LIMIT of the forces of CANDIDATE, or NIL if none is needed or it can't be computed."
+  "Return the EXACT-LIMIT of the forces of CANDIDATE, or NIL if none is needed or it can't be
+computed."
   (multiple-value-bind (upper certified motion) (candidate-exact-radius candidate plan)
     (and upper
          (make-exact-limit :axis (candidate-force-axis candidate) :needs 1d0
@@ -147,8 +148,8 @@ EXACT-LIMIT.")
                    :stepped stepped))))
 
 (defun explain-best (&optional (plan (last-plan)))
-  "Print and return why the best grasp of PLAN is the best: how it holds the box, what limits it, the
-runner-up, and which single need, friction or weight would have to change, and to what, for the
+  "Print and return why the best grasp of PLAN is the best: how it holds the box, what limits it,
+the runner-up, and which single need, friction or weight would have to change, and to what, for the
 choice to change."
   (print-answer (explain-choice plan)))
 
@@ -167,8 +168,8 @@ choice to change."
              (write-truth (choice-truth answer) stream))))
   (write-meaning answer stream)
   (when (choice-runner-up answer)
-    (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, but tried later~;a Q lower by ~@[at ~
-                    least ~*~]~a~].~%"
+    (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, but tried later~;a Q lower by ~
+                    ~@[at least ~*~]~a~].~%"
             (candidate-grasp (choice-runner-up answer))
             (candidate-matching (choice-runner-up answer)) (> (choice-margin answer) +tie+)
             (candidate-bound-p (choice-runner-up answer))
@@ -185,22 +186,24 @@ choice to change."
   (:method (limit stream)
     (write-limit "Force" "exerts" "beyond the weight's load" limit stream))
   (:method ((limit exact-limit) stream)
-    (format stream "Force is limited where the box is ~a: radius ~a~:[, not proved~;, proved~], and at ~
-                    most ~a.~%"
+    (format stream "Force is limited where the box is ~a: radius ~a~:[, not proved~;, proved~], ~
+                    and at most ~a.~%"
             (exact-limit-direction limit)
             (three-decimals (limit-radius limit)) (exact-limit-certified limit)
             (three-decimals (exact-limit-upper limit)))
-    (format stream "  There pressing gives ~a, friction ~a, the fingertips' torque ~a, the weight ~a; ~
-                    the task needs 1.~%"
+    (format stream "  There pressing gives ~a, friction ~a, the fingertips' torque ~a, the weight ~
+                    ~a; the task needs 1.~%"
             (three-decimals (first (limit-has limit))) (three-decimals (second (limit-has limit)))
-            (three-decimals (third (limit-has limit))) (three-decimals (fourth (limit-has limit))))))
+            (three-decimals (third (limit-has limit)))
+            (three-decimals (fourth (limit-has limit))))))
 
 (defun write-limit (kind verb beyond limit stream)
   (when limit
     (destructuring-bind (has needs radius one)
         (number-texts (limit-has limit) (limit-needs limit) (limit-radius limit) 1)
       (declare (ignore one))
-      (format stream "~a is limited ~a: the grasp ~a ~a~@[ ~a~], the task needs ~a; radius ~a.~%" kind
+      (format stream "~a is limited ~a: the grasp ~a ~a~@[ ~a~], the task needs ~a; radius ~a.~%"
+              kind
               (limit-axis limit) verb (with-unit has (limit-measure limit)) beyond
               (with-unit needs (limit-measure limit)) radius))))
 
@@ -208,10 +211,10 @@ choice to change."
   "Write what SURE, a sure radius, is, if it is one; TRUTH is the EXACT-LIMIT, or NIL."
   (cond ((null sure))
         ((and truth (> sure (* (+ 1 +tie+) (exact-limit-upper truth))))
-         (format stream "By WRENCH ~a times the forces and torques asked for would be sure: more than ~
-                         the contacts can exert.~%" (number-text sure)))
-        (t (format stream "What is sure: together, and in any direction, the contacts bear ~a times the ~
-                           forces and torques asked for.~%" (number-text sure)))))
+         (format stream "WRENCH promises ~a times the forces and torques asked for, which is ~
+                         more than the contacts can exert.~%" (number-text sure)))
+        (t (format stream "What is sure: together, and in any direction, the contacts bear ~a ~
+                           times the forces and torques asked for.~%" (number-text sure)))))
 
 (defun write-truth (truth stream)
   "Write what TRUTH, an EXACT-LIMIT, says of the contacts, if there is one."
@@ -221,8 +224,8 @@ choice to change."
         (t (destructuring-bind (lower upper one)
                (number-texts (or (exact-limit-certified truth) 0) (exact-limit-upper truth) 1)
              (declare (ignore one))
-             (format stream "Exactly, they bear ~:[at most ~*~;from ~a to ~]~a times as much; least ~
-                             where the box is ~a.~%"
+             (format stream "Exactly, they bear ~:[at most ~*~;from ~a to ~]~a times as much; ~
+                             least where the box is ~a.~%"
                      (exact-limit-certified truth) lower upper (exact-limit-direction truth))))))
 
 (defun below-one-p (number) (< number (- 1 +tie+)))
@@ -240,7 +243,8 @@ choice to change."
               (first (number-texts (limit-radius velocity) 1)) (limit-axis velocity) meaning)))
   (let ((best (plan-best (choice-plan answer))))
     (when best
-      (format stream "Q, ~a, only compares grasps for one task; it is not a probability of success.~%"
+      (format stream "Q, ~a, only compares grasps for one task; it is not a probability of ~
+                      success.~%"
               (three-decimals (candidate-quality best))))))
 
 (defun write-changes (changes stream)
@@ -249,8 +253,8 @@ choice to change."
         do (format stream "  ~{~a: ~a, not ~a; then ~a~}~%" (change-words change))))
 
 (defun change-words (change)
-  "Return four texts of CHANGE: what is to be different, the value that it would have, the value that it
-has, and what would then be chosen."
+  "Return four texts of CHANGE: what is to be different, the value that it would have, the value
+that it has, and what would then be chosen."
   (list (change-what change)
         (if (change-at-once change) "anything above 0" (change-text (change-to change) change))
         (change-text (change-from change) change)

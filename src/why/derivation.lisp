@@ -1,14 +1,15 @@
-;;;; derivation.lisp -- how a fact came to be known: the tree of rules, bindings and facts down to the box.
+;;;; derivation.lisp -- how a fact came to be known: the tree of rules, bindings and facts down to
+;;;; the box.
 ;;;;
-;;;; The log of a plan holds the rule, the action and the binding of every fact, so nothing has to be
-;;;; recorded for this while planning.
+;;;; The log of a plan holds the rule, the action and the binding of every fact, so nothing has to
+;;;; be recorded for this while planning.
 
 (in-package :supergrip)
 
 (defstruct (derivation (:include explanation))
-  "How a fact is known.  PREDICATE and FACE-LIST are the fact; RULE the rule that remembered it, under
-BINDING, NIL for an input; PARTS what met its clauses, DERIVATIONs and ASSUMPTIONs; NOTE, for an
-input, where it comes from."
+  "How a fact is known.  PREDICATE and FACE-LIST are the fact; RULE the rule that remembered it,
+under BINDING, NIL for an input; PARTS what met its clauses, DERIVATIONs and ASSUMPTIONs; NOTE, for
+an input, where it comes from."
   predicate face-list rule binding (parts '()) note)
 
 (defun derivation-faces (derivation)
@@ -37,8 +38,8 @@ input, where it comes from."
                    face-list (plan-box plan) (prepared-input-threshold input)))
         "the box says so")))
 
-;;; A fact follows only from what was known before it, so the derivations of a whole log are made in its
-;;; order, each from those before: however long a chain is, nothing nests.
+;;; A fact follows only from what was known before it, so the derivations of a whole log are made in
+;;; its order, each from those before: however long a chain is, nothing nests.
 
 (defun fact-key (predicate face-list)
   (+ (* 64 (predicate-index predicate)) (face-list-mask face-list)))
@@ -50,7 +51,8 @@ input, where it comes from."
       (multiple-value-bind (predicate face-list) (event-fact event rulebase)
         (let ((rule (event-rule event rulebase)) (binding (event-binding event)))
           (setf (gethash (fact-key predicate face-list) table)
-                (make-derivation :predicate predicate :face-list face-list :rule rule :binding binding
+                (make-derivation :predicate predicate :face-list face-list :rule rule
+                                 :binding binding
                                  :parts (loop for clause in (rule-clauses rule)
                                               collect (clause-part clause rule binding table
                                                                    memory plan)))))))))
@@ -67,7 +69,8 @@ assumption."
   "Return the derivation of a fact that MEMORY holds: from TABLE, or, for an input, a new one."
   (or (gethash (fact-key predicate face-list) table)
       (make-derivation :predicate predicate
-                       :face-list (find (face-list-mask face-list) (facts memory predicate) :key #'face-list-mask)
+                       :face-list (find (face-list-mask face-list) (facts memory predicate)
+                                        :key #'face-list-mask)
                        :note (input-note predicate face-list plan))))
 
 (defun derive (plan predicate face-list)
@@ -104,7 +107,8 @@ written, and how much is left out."
       (let ((left (- (count-derived derivation) (hash-table-count told))))
         (when (plusp left)
           (write-indent stream depth)
-          (format stream "~d more derived fact~:p in this tree ~:*~[~;is~:;are~] left out." left))))))
+          (format stream "~d more derived fact~:p in this tree ~:*~[~;is~:;are~] left out."
+                  left))))))
 
 (defun count-derived (derivation)
   "Return how many facts the tree of DERIVATION derives by rules."

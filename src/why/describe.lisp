@@ -60,8 +60,8 @@
                   collect (rule-name rule))))
 
 (defun describe-rule (name &key (knowledge *knowledge*) (stream *standard-output*))
-  "Write the rule NAME to STREAM: its form, in words, where it is from, who derives what it tests, and
-who tests what it derives.  Returns the rule."
+  "Write the rule NAME to STREAM: its form, in words, where it is from, who derives what it tests,
+and who tests what it derives.  Returns the rule."
   (let ((rule (find-named name knowledge :rule)))
     (plainly
       (write-rule-form rule stream)
@@ -108,12 +108,14 @@ which rules test it; or, of a preliminary assertion, its threshold.  Returns its
     predicate))
 
 (defun threshold-text (words input)
-  "Return the threshold of the prepared INPUT, \"FINGER-WIDTH, 0.6\", or NIL if it has none.  INPUT is NIL
-if the gripper lacks that of the assertion WORDS."
+  "Return the threshold of the prepared INPUT, \"FINGER-WIDTH, 0.6\", or NIL if it has none.  INPUT
+is NIL if the gripper lacks that of the assertion WORDS."
   (let ((name (input-row-dimension (if input
                                        (prepared-input-row input)
-                                       (find words *inputs* :key #'input-row-name :test #'string=)))))
-    (cond (input (and name (format nil "~a, ~a" name (number-text (prepared-input-threshold input)))))
+                                       (find words *inputs* :key #'input-row-name
+                                             :test #'string=)))))
+    (cond (input (and name
+                      (format nil "~a, ~a" name (number-text (prepared-input-threshold input)))))
           (t (format nil "~a, which the gripper lacks, so it never holds" name)))))
 
 (defun dimension-users (name knowledge)
@@ -124,15 +126,16 @@ if the gripper lacks that of the assertion WORDS."
                      :test #'string= :from-end t))
 
 (defun describe-gripper (&key (knowledge *knowledge*) (stream *standard-output*))
-  "Write the gripper of KNOWLEDGE to STREAM: its model, where it is from, its dimensions, and which rules
-and grasps use each.  Returns its dimensions, an alist from name to double."
+  "Write the gripper of KNOWLEDGE to STREAM: its model, where it is from, its dimensions, and which
+rules and grasps use each.  Returns its dimensions, an alist from name to double."
   (let ((knowledge (check-knowledge-argument knowledge)))
     (plainly
       (format stream "~:[This gripper~;~:*~a~]~@[ is from ~a~].~%"
               (and (knowledge-model knowledge) (visible-text (knowledge-model knowledge)))
               (data-file-name (gripper-source knowledge)))
       (loop for (name . number) in (knowledge-gripper knowledge)
-            for (nil nil meaning part) = (assoc name (graspbase-rows (knowledge-graspbase knowledge))
+            for (nil nil meaning part) = (assoc name
+                                                (graspbase-rows (knowledge-graspbase knowledge))
                                                 :test #'string=)
             for users = (append (dimension-users name knowledge) (and part (list part)))
             do (format stream "~a ~a~@[ ~a~].~%  Used by ~a.~%" name (number-text number) meaning

@@ -8,8 +8,8 @@
       "the fingers can't reach: a root or a quotient of OFFSET has no value"))
 
 (defun overhangs (candidate workspace)
-  "Return a list of (SHORTFALL GRASP-FACE AXIS PLACE LENGTH), one for each coordinate of a finger of CANDIDATE
-that is beyond an edge of its face, the worst first; :NONE if a form has no value."
+  "Return a list of (SHORTFALL GRASP-FACE AXIS PLACE LENGTH), one for each coordinate of a finger of
+CANDIDATE that is beyond an edge of its face, the worst first; :NONE if a form has no value."
   (let* ((grasp (%candidate-grasp candidate))
          (registers (workspace-registers workspace)))
     (if (has-value-p (grasp-positions grasp) registers)
@@ -71,13 +71,15 @@ CLOSED-AT tells of a friction whether it does."
       (values high low))))
 
 (defun describe-open (workspace closed-at)
-  "Return why a candidate is open, whose figures WORKSPACE holds; CLOSED-AT as for CLOSING-FRICTION."
+  "Return why a candidate is open, whose figures WORKSPACE holds; CLOSED-AT as for
+CLOSING-FRICTION."
   (let ((u (%box-friction (workspace-box workspace))))
     (if (funcall closed-at u)
         "a form of TWIST, or the index, has no value in range"
         (multiple-value-bind (needed too-little) (closing-friction u closed-at)
           (if needed
-              (apply #'format nil "open: the contacts don't close on this shape; needs u > ~a, has ~a"
+              (apply #'format nil
+                     "open: the contacts don't close on this shape; needs u > ~a, has ~a"
                      (number-texts too-little u))
               "open: the contacts don't close on this shape with any friction")))))
 
@@ -120,8 +122,9 @@ CLOSED-AT tells of a friction whether it does."
                 (first (number-texts (total-share shares) 1))))))
 
 (defun friction-shortfall (workspace closed-at least)
-  "Return by how much the friction of the box of WORKSPACE misses what closes a grasp, relative; 1 if
-nothing does, or if it is no less than LEAST, unless that is NIL.  CLOSED-AT as for CLOSING-FRICTION."
+  "Return by how much the friction of the box of WORKSPACE misses what closes a grasp, relative; 1
+if nothing does, or if it is no less than LEAST, unless that is NIL.  CLOSED-AT as for
+CLOSING-FRICTION."
   (let* ((u (%box-friction (workspace-box workspace)))
          (needed (and (or (null least)
                           ;; One look here saves most of the searches.
@@ -130,8 +133,8 @@ nothing does, or if it is no less than LEAST, unless that is NIL.  CLOSED-AT as 
     (if needed (- 1 (/ u needed)) 1)))
 
 (defun held-share (candidate workspace)
-  "Return which part of the weight, 0 to 1, the contacts of CANDIDATE hold, and a motion in which they
-can do no more."
+  "Return which part of the weight, 0 to 1, the contacts of CANDIDATE hold, and a motion in which
+they can do no more."
   (let ((gravity (gravity-on (workspace-box workspace))))
     (multiple-value-bind (share witness)
         (grip-entry (contacts-grip candidate workspace) (map 'six #'- gravity))
@@ -141,8 +144,8 @@ can do no more."
   "Return in words that the contacts of CANDIDATE can't hold the weight, and how the box gives way."
   (let ((weight (in-units (%box-weight (workspace-box workspace)) :force)))
     (multiple-value-bind (share witness) (held-share candidate workspace)
-      (format nil "it can't hold the weight: the load is ~a, the contacts bear ~:[no weight~;~:*~a~] ~
-                   in this direction; the box would give way, ~a"
+      (format nil "it can't hold the weight: the load is ~a, the contacts bear ~:[no ~
+                   weight~;~:*~a~] in this direction; the box would give way, ~a"
               (with-unit (number-text weight) :force)
               (and (plusp share) (number-text (* share weight)))
               (motion-text (map 'vector #'- witness) "moving" "turning")))))
@@ -170,13 +173,15 @@ keyword: a sentence.")
 
 (defgeneric failure-shortfalls (outcome index candidate workspace least)
   (:documentation "Return by how much CANDIDATE, whose figures WORKSPACE holds, missed the step of
-OUTCOME by INDEX, a keyword: a list to compare by MISSES-LESS-P.  Each number is 0 to 1, relative; 1 where that can't be
-said.  A number may be 1, too, if it is no less than LEAST, unless that is NIL.")
+OUTCOME by INDEX, a keyword: a list to compare by MISSES-LESS-P.  Each number is 0 to 1, relative; 1
+where that can't be said.  A number may be 1, too, if it is no less than LEAST, unless that is
+NIL.")
   (:method (outcome index candidate workspace least)
     (declare (ignore outcome index candidate workspace least))
     '(1)))
 
-(defmacro define-failure (outcome (candidate workspace &optional (least (gensym))) &key why shortfalls)
+(defmacro define-failure (outcome (candidate workspace &optional (least (gensym)))
+                          &key why shortfalls)
   "Say of the candidates that have OUTCOME, a keyword (see DEFINE-STEP): WHY, a form that returns a
 sentence, and SHORTFALLS, one that returns a list (see FAILURE-SHORTFALLS).  OUTCOME may be (OUTCOME
 INDEX), if that is so by one index only."
@@ -232,7 +237,8 @@ with the figures.  NIL if it is possible."
 ;;; The nearest miss
 
 (defun misses-less-p (a b)
-  "True if the SHORTFALLS A are less than B: the first that differ decide, or else that A are fewer."
+  "True if the SHORTFALLS A are less than B: the first that differ decide, or else that A are
+fewer."
   (cond ((null b) nil)
         ((null a) t)
         ((< (first a) (- (first b) +tie+)) t)
@@ -246,13 +252,15 @@ with the figures.  NIL if it is possible."
                       when (eq step (candidate-outcome candidate)) collect candidate)))
 
 (defun nearest-miss (candidates plan)
-  "Return the one of CANDIDATES of PLAN that got farthest; of several, the one that missed by least."
+  "Return the one of CANDIDATES of PLAN that got farthest; of several, the one that missed by
+least."
   (let* ((farthest (farthest candidates))
          (best (first farthest)) (least nil))
     (when (rest farthest)
       (with-workspace (workspace plan)
         (dolist (candidate farthest)
-          (let ((shortfalls (failure-shortfalls (candidate-outcome candidate) (plan-index plan) candidate
+          (let ((shortfalls (failure-shortfalls (candidate-outcome candidate) (plan-index plan)
+                                                candidate
                                                 (replay candidate workspace) (first least))))
             (when (or (null least) (misses-less-p shortfalls least))
               (setf best candidate least shortfalls))))))

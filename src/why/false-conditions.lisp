@@ -1,4 +1,5 @@
-;;;; false-conditions.lisp -- which parts of a grasp's conditions are false, and by how much, in words.
+;;;; false-conditions.lisp -- which parts of a grasp's conditions are false, and by how much, in
+;;;; words.
 
 (in-package :supergrip)
 
@@ -52,8 +53,9 @@ each.  SHORTFALL is how far off it is: 0 to 1, relative; 1 where that can't be s
     (if (zerop most) 0d0 (min 1d0 (abs (- (/ a most) (/ b most)))))))
 
 (defun faults (node negated grasp registers)
-  "Return the faults of NODE, a test of GRASP that should be true, or false if NEGATED, on REGISTERS,
-which hold what box and matching give: all that would have to change for it to be as it should."
+  "Return the faults of NODE, a test of GRASP that should be true, or false if NEGATED, on
+REGISTERS, which hold what box and matching give: all that would have to change for it to be as it
+should."
   (flet ((fault-if (false &rest more)
            (and false (list (apply #'make-fault :node node :negated negated more))))
          (joined (all) (joined-faults node negated all grasp registers)))
@@ -73,7 +75,8 @@ which hold what box and matching give: all that would have to change for it to b
               (fault-if t)))))))
 
 (defun joined-faults (node negated all grasp registers)
-  "Return the faults of NODE, which joins tests: of each, if ALL must be as they should, else of one."
+  "Return the faults of NODE, which joins tests: of each, if ALL must be as they should, else of
+one."
   (if all
       (loop for test in (node-args node) append (faults test negated grasp registers))
       (let ((alternatives (loop for test in (node-args node)
@@ -136,7 +139,8 @@ which hold what box and matching give: all that would have to change for it to b
   "Return the name of the face on AXIS that a finger of GRASP touches, or those of both faces."
   (let ((grasp-faces (remove-duplicates (loop for (grasp-face) in (grasp-contacts grasp)
                                         when (= axis (floor grasp-face 2)) collect grasp-face))))
-    (format nil "~{~a~^ or ~}" (loop for grasp-face in (or grasp-faces (list (* 2 axis) (1+ (* 2 axis))))
+    (format nil "~{~a~^ or ~}" (loop for grasp-face
+                                     in (or grasp-faces (list (* 2 axis) (1+ (* 2 axis))))
                                      collect (face-of grasp-face matching)))))
 
 (defun input-names (node matching)
@@ -182,8 +186,8 @@ which hold what box and matching give: all that would have to change for it to b
     ("FINGER-SPREAD" (">" ">=") "two fingers side by side need ~a"
      "two fingers side by side need more than ~a")
     ("WIDTH-HAND" (">" ">=") "the hand needs more than ~a" "the hand needs more than ~a"))
-  "What a comparison of a distance with a dimension of the gripper asks, in words; and if the two are
-equal.")
+  "What a comparison of a distance with a dimension of the gripper asks, in words; and if the two
+are equal.")
 
 (defun demand-words (node number op figure other form)
   "Return in words that NODE, which is NUMBER, must be OP, a string, as against FIGURE, the value of
@@ -302,7 +306,8 @@ exchanged if TURNED."
           collect (aref (%box-size box) axis)))
 
 (defun too-wide-text (candidate workspace)
-  "Return that the narrowest free pair of faces is too wide for CANDIDATE, if that is why it failed."
+  "Return that the narrowest free pair of faces is too wide for CANDIDATE, if that is why it
+failed."
   (let ((faults (candidate-faults candidate workspace)))
     (when (clear-p faults)
       (multiple-value-bind (node number op other limit form) (comparison-parts (first faults))

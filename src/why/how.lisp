@@ -16,8 +16,8 @@
           collect rule))
 
 (defun spelled (object)
-  "Return what OBJECT, a string, spells: its one list, or the list of what stands in it.  Anything else
-is returned as it is, and so is a string that can't be read."
+  "Return what OBJECT, a string, spells: its one list, or the list of what stands in it.  Anything
+else is returned as it is, and so is a string that can't be read."
   (if (stringp object)
       (let ((forms (handler-case (read-all (string-source object))
                      (syntax-error () (list object)))))

@@ -396,8 +396,8 @@ before, or equal but for rounding."
           finally (return other))))
 
 (defun threshold-at (line goal place)
-  "Return how PLACE, where GOAL becomes true, stands to the dimension of the gripper that decides it, the
-name of that and itself; or NIL."
+  "Return how PLACE, where GOAL becomes true, stands to the dimension of the gripper that decides
+it, the name of that and itself; or NIL."
   (let ((up (> place (line-from line))))
     (loop for (name . number) in (and (not (eq (box-key-type (line-row line)) :needs))
                                       (thresholds-of (line-plan line)))
@@ -410,8 +410,8 @@ name of that and itself; or NIL."
             return (list relation name number))))
 
 (defun decides-p (name number line goal place)
-  "True if GOAL were not true at PLACE if the dimension NAME, there, were NUMBER, a little beyond it.
-Several dimensions may have one value, and a form may hold it, too."
+  "True if GOAL were not true at PLACE if the dimension NAME, there, were NUMBER, a little beyond
+it.  Several dimensions may have one value, and a form may hold it, too."
   (let* ((plan (line-plan line))
          (knowledge (knowledge-with-dimension (plan-knowledge plan) name number)))
     (and knowledge

@@ -1,5 +1,5 @@
-;;;; motions.lisp -- a motion of the box in words, and the direction in which contacts have the least
-;;;; to spare.
+;;;; motions.lisp -- a motion of the box in words, and the direction in which contacts have the
+;;;; least to spare.
 
 (in-package :supergrip)
 
@@ -16,8 +16,8 @@ LEAST, with their signs: \"+Y and -Z\"; or NIL."
     (and axes (plain-text "~{~a~#[~; and ~:;, ~]~}" axes))))
 
 (defun motion-text (motion push turn)
-  "Return MOTION, six numbers along X Y Z and about X Y Z, in words: the components that count.  PUSH and
-TURN are the verbs: \"pushed along +Y and turned about -Z\"."
+  "Return MOTION, six numbers along X Y Z and about X Y Z, in words: the components that count.
+PUSH and TURN are the verbs: \"pushed along +Y and turned about -Z\"."
   (let* ((least (* *part-that-counts* (reduce #'max motion :key #'abs)))
          (along (signed-axes motion 0 least))
          (about (signed-axes motion 3 least)))

@@ -1,10 +1,11 @@
-;;;; questions.lisp -- HOW and WHY-NOT, typed: each answers what was meant for the other.
+;;;; questions.lisp -- HOW and WHY-NOT, as they are typed.  A question that is meant for the other
+;;;; is answered by the other.
 
 (in-package :supergrip)
 
 (defun asked-fact (object plan)
-  "Return the fact that OBJECT is in a question about PLAN: a list, a string of one, or the one word of a
-sentence without faces, if that names no rule or grasp.  NIL if it is none."
+  "Return the fact that OBJECT is in a question about PLAN: a list, a string of one, or the one word
+of a sentence without faces, if that names no rule or grasp.  NIL if it is none."
   (let* ((name (name-of object))
          (knowledge (plan-knowledge (need-plan plan)))
          (predicate (and name (find-predicate (knowledge-rulebase knowledge) (list name)))))
@@ -45,9 +46,9 @@ the answers.  Where FACT is the name of a rule or a grasp, the answer is WHY-NOT
         (print-answers (explain-facts (or asked fact) plan)))))
 
 (defun why-not (name &rest arguments)
-  "(WHY-NOT NAME [MATCHING] [PLAN]): print and return why the rule NAME did not fire in PLAN, by default
-*PLAN*, or why the grasp NAME was not chosen, in MATCHING, six faces, if that is given.  NAME is a
-symbol or a string; where it is a fact, the answer is HOW's."
+  "(WHY-NOT NAME [MATCHING] [PLAN]): print and return why the rule NAME did not fire in PLAN, by
+default *PLAN*, or why the grasp NAME was not chosen, in MATCHING, six faces, if that is given.
+NAME is a symbol or a string; where it is a fact, the answer is HOW's."
   (check-listed arguments 'why-not name)
   (let* ((matching (and arguments (not (plan-p (first arguments))) (pop arguments)))
          (plan (if arguments (pop arguments) (last-plan)))

@@ -18,8 +18,8 @@ POSSIBLE, for a grasp that nothing makes the best, is the requirement of kind :P
   (possible nil))
 
 (defun whole-plan (plan)
-  "Return PLAN, or, if its rules have not run to their end or it is not by the paper's index, the plan
-by that for its box: what is known of the box is the same."
+  "Return PLAN, or, if its rules have not run to their end or it is not by the paper's index, the
+plan by that for its box: what is known of the box is the same."
   (if (or (plan-tries plan) (unfinished-p plan) (not (eq (plan-index plan) :paper)))
       (plan (plan-box plan) :knowledge (plan-knowledge plan) :gamma (plan-gamma plan))
       plan))
@@ -72,9 +72,9 @@ by that for its box: what is known of the box is the same."
 (defun check-searchable (plan)
   "Signal an ARGUMENT-ERROR if what makes a grasp the best of PLAN can't be searched for."
   (unless (eq (plan-index plan) :paper)
-    (refuse-argument "what a grasp requires is searched for by the paper's index only, and this plan is ~
-                      by the index ~s; ask of a plan by the paper's index: (requires grasp (plan ~
-                      (plan-box plan)))" (plan-index plan))))
+    (refuse-argument "what a grasp requires is searched for by the paper's index only, and this ~
+                      plan is by the index ~s; ask of a plan by the paper's index: (requires grasp ~
+                      (plan (plan-box plan)))" (plan-index plan))))
 
 (defun require-grasp (grasp plan)
   (flet ((true-p (plan)

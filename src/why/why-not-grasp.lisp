@@ -30,8 +30,8 @@ TEXT is a sentence, PLAN the plan."
     (and (= (length words) 6) (null (nthcdr 6 faces)) (notany #'null words) words)))
 
 (defun check-listed (arguments function name)
-  "Signal an ARGUMENT-ERROR if ARGUMENTS, those of FUNCTION after NAME, begin with a face: they go in a
-list."
+  "Signal an ARGUMENT-ERROR if ARGUMENTS, those of FUNCTION after NAME, begin with a face: they go
+in a list."
   (let ((faces (loop for argument in arguments
                      for word = (word-text argument)
                      while (and word (or (face-index word) (string= word "?")))
@@ -105,7 +105,8 @@ list."
     (cond (candidate (explain-candidate candidate plan))
           (constrained
            (make-not-chosen :kind :constrained :grasp grasp :matching matching :faces constrained
-                            :text (format nil "it would use ~{~a~#[~; and ~:;, ~]~}, which ~:[is~;are~] constrained"
+                            :text (format nil "it would use ~{~a~#[~; and ~:;, ~]~}, which ~
+                                               ~:[is~;are~] constrained"
                                           constrained (rest constrained))))
           (same
            (make-not-chosen :kind :equivalent :grasp grasp :matching matching
@@ -115,12 +116,14 @@ list."
           (t (not-tried grasp matching plan)))))
 
 (defun same-grasp (grasp matching plan)
-  "Return the set of the matchings in which GRASP is, for the index of PLAN, the same as in MATCHING."
+  "Return the set of the matchings in which GRASP is, for the index of PLAN, the same as in
+MATCHING."
   (aref (funcall (index-same (index-named (plan-index plan))) grasp (plan-box plan))
         (matching-index matching)))
 
 (defun untried-candidates (grasp matching plan)
-  "Return the candidates that trying GRASP, in MATCHING or in all, would have given, the best first."
+  "Return the candidates that trying GRASP, in MATCHING or in all, would have given, the best
+first."
   (let* ((alone (try-only grasp (plan-box plan) :knowledge (plan-knowledge plan)
                                                  :gamma (plan-gamma plan)
                                                  :index (plan-index plan)))
@@ -182,10 +185,11 @@ faces) if that is given, was not chosen, a NOT-CHOSEN."
         (refuse-matching grasp matching plan)
         (make-not-chosen :kind :no-matching :grasp grasp :faces words
                          :text (if words
-                                   (format nil "(~{~a~^ ~}) is not a matching: N O A must be a proper ~
-                                                rotation of X Y Z, N1 opposite N2, and so on" words)
-                                   (format nil "~a is not a matching: a matching is six faces, for N1 ~
-                                                N2 O1 O2 A1 A2" (form-text faces)))))))
+                                   (format nil "(~{~a~^ ~}) is not a matching: N O A must be a ~
+                                                proper rotation of X Y Z, N1 opposite N2, and so ~
+                                                on" words)
+                                   (format nil "~a is not a matching: a matching is six faces, for ~
+                                                N1 N2 O1 O2 A1 A2" (form-text faces)))))))
 
 (defmethod write-answer ((answer not-chosen) stream)
   (format stream "~a~@[ (~{~a~^ ~})~]: ~a.~%" (grasp-name (not-chosen-grasp answer))
@@ -203,7 +207,8 @@ faces) if that is given, was not chosen, a NOT-CHOSEN."
 (defun write-untried (candidate plan stream)
   (if (eq (candidate-outcome candidate) :possible)
       (format stream "If tried, it would be possible, with Q~a~a in (~{~a~^ ~}).~%"
-              (quality-sign candidate) (three-decimals (candidate-quality candidate)) (candidate-matching candidate))
+              (quality-sign candidate) (three-decimals (candidate-quality candidate))
+              (candidate-matching candidate))
       (format stream "If tried, it would fail; nearest in (~{~a~^ ~}): ~a.~%"
               (candidate-matching candidate) (nth-value 1 (candidate-failure candidate plan)))))
 

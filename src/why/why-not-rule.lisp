@@ -3,11 +3,12 @@
 (in-package :supergrip)
 
 (defstruct (refusal (:include explanation))
-  "Why RULE did not fire, or not for what was asked about.  TRIED is the names of the grasps that were
-tried without rules, if no rule ran.  FIRED holds the rule's bindings if it did fire; STOP is the STOP that ended the
-run before it, or before its action; else NUMBER counts its CLAUSE that failed, BINDINGS are those
-that met all clauses before, BLOCKS, for a negation, the derivations of the facts that contradict it
-under each, and FIRED-FOR-OTHERS is true if it fired for something else."
+  "Why RULE did not fire, or not for what was asked about.  TRIED is the names of the grasps that
+were tried without rules, if no rule ran.  FIRED holds the rule's bindings if it did fire; STOP is
+the STOP that ended the run before it, or before its action; else NUMBER counts its CLAUSE that
+failed, BINDINGS are those that met all clauses before, BLOCKS, for a negation, the derivations of
+the facts that contradict it under each, and FIRED-FOR-OTHERS is true if it fired for something
+else."
   rule (tried '()) (fired '()) stop number clause (bindings '()) (blocks '()) fired-for-others)
 
 (defun memory-before (plan rule)
@@ -30,7 +31,8 @@ under each, and FIRED-FOR-OTHERS is true if it fired for something else."
           (t (make-refusal :rule rule :fired (rule-bindings rule memory))))))
 
 (defun refuse-conclusion (rule predicate face-list plan)
-  "Return the REFUSAL of RULE in PLAN as far as it might have said PREDICATE of the faces of FACE-LIST."
+  "Return the REFUSAL of RULE in PLAN as far as it might have said PREDICATE of the faces of
+FACE-LIST."
   (multiple-value-bind (memory stop) (memory-before plan rule)
     (let ((actions (remove predicate (rule-actions rule) :key #'action-predicate :test-not #'eq)))
       (flet ((wanted-p (binding)
@@ -56,8 +58,8 @@ under each, and FIRED-FOR-OTHERS is true if it fired for something else."
                    (logbitp (term-value term binding) faces))))
 
 (defun failing-clause (rule memory plan wanted)
-  "Return the REFUSAL of RULE on MEMORY with regard to the bindings that are WANTED, a predicate: the
-first clause that fails for all of them.  NIL if none does."
+  "Return the REFUSAL of RULE on MEMORY with regard to the bindings that are WANTED, a predicate:
+the first clause that fails for all of them.  NIL if none does."
   (loop for clause in (rule-clauses rule)
         for number from 1
         for bindings = (list 0) then next
@@ -69,7 +71,8 @@ first clause that fails for all of them.  NIL if none does."
 
 (defun blocking-facts (clause bindings plan)
   "Return the derivations of the facts that contradict CLAUSE, negated, under BINDINGS."
-  (let ((table (derivations plan)) (memory (plan-memory plan)) (predicate (clause-predicate clause)))
+  (let ((table (derivations plan)) (memory (plan-memory plan))
+        (predicate (clause-predicate clause)))
     (loop for face-list in (remove-duplicates
                          (loop for binding in bindings
                                when (every (lambda (term) (or (not (term-variable-p term))
@@ -112,7 +115,8 @@ first clause that fails for all of them.  NIL if none does."
   (let* ((rule (refusal-rule refusal))
          (stop (refusal-stop refusal))
          (running (and stop (waiting-p stop))))
-    (format stream "RULE ~a ~:[did fire~;is running~]~@[, with ~a~]~@[, and ~a~].~%" (rule-name rule)
+    (format stream "RULE ~a ~:[did fire~;is running~]~@[, with ~a~]~@[, and ~a~].~%"
+            (rule-name rule)
             running
             (let ((texts (binding-texts rule (refusal-fired refusal))))
               (and texts (listed texts 12 "; ")))
@@ -150,7 +154,8 @@ first clause that fails for all of them.  NIL if none does."
   (let ((words (predicate-text (clause-predicate clause)))
         (these (and bound (clause-terms clause))))
     (if (predicate-given (clause-predicate clause))
-        (format nil "~a is an input, and the box does not give it~:[~; for these faces~]." words these)
+        (format nil "~a is an input, and the box does not give it~:[~; for these faces~]." words
+                these)
         (format nil "No rule before it said ~a~:[~; of these faces~]." words these))))
 
 (defmethod topic ((explanation refusal))

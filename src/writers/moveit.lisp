@@ -1,7 +1,7 @@
 ;;;; moveit.lisp -- grasps as moveit_msgs/Grasp, as YAML: one document a grasp.
 ;;;;
 ;;;; Source: moveit_msgs/msg/Grasp.msg and GripperTranslation.msg, of ROS 1 and 2.  Headers have no
-;;;; stamp: its fields have other names in each, and what is left out is 0.
+;;;; stamp, since ROS 1 and 2 name its fields differently.  A stamp that is left out is 0.
 
 (in-package :supergrip)
 

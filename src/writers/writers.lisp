@@ -71,8 +71,8 @@ the gripper, 0 if it has none, behind the grasp centre."
                     (getf hand :position) (candidate-approach candidate)))))
 
 (defun palm-inside (candidate plan)
-  "Return how deep, in cm, the palm's frame of CANDIDATE of PLAN lies in the box; 0 if it does not, or
-if the gripper does not name PALM-DEPTH."
+  "Return how deep, in cm, the palm's frame of CANDIDATE of PLAN lies in the box; 0 if it does not,
+or if the gripper does not name PALM-DEPTH."
   (let ((approach (candidate-approach candidate)) (depth (gripper-number plan "PALM-DEPTH" 0d0)))
     (if (zerop depth)
         0d0
@@ -87,8 +87,8 @@ if the gripper does not name PALM-DEPTH."
   (let* ((depths (loop for grasp in grasps collect (palm-inside grasp plan)))
          (inside (count-if (lambda (depth) (> depth 1d-6)) depths)))
     (when (plusp inside)
-      (format nil "~d of ~d palms ~:*~*~[~;lies~:;lie~] inside the box, up to ~a cm deep: fingers reach ~
-                   deeper than the PALM-DEPTH of the gripper, ~a cm"
+      (format nil "~d of ~d palm~:p ~[~;lies~:;lie~] inside the box, up to ~a cm deep: fingers ~
+                   reach deeper than the PALM-DEPTH of the gripper, ~a cm"
               inside (length grasps) inside (number-text (reduce #'max depths))
               (number-text (gripper-number plan "PALM-DEPTH" 0d0))))))
 

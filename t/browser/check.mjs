@@ -6,12 +6,12 @@
 //
 // Needs Debian's package chromium, or the path of another in CHROMIUM.
 //
-// Each .svg: no text leaves the canvas, none touches a contact, no two texts overlap, and no line or
-// outline runs through a text; the boxes are those that the browser has laid out.  As wide as a
+// Each .svg: no text leaves the canvas, none touches a contact, no two texts overlap, and no line
+// or outline runs through a text; the boxes are those that the browser has laid out.  As wide as a
 // README, 830 px, no text is smaller than 9 px.  Each .html, 390 and 1280 wide, light and dark:
-// axe-core has nothing to say, nothing is wider than the window, and no word is broken; the texts of
-// its pictures are measured, too.  With SCREENSHOTS, a folder, pages and pictures are saved there as PNG.  Ends with 1 if
-// anything is wrong.
+// axe-core has nothing to say, nothing is wider than the window, and no word is broken; the texts
+// of its pictures are measured, too.  With SCREENSHOTS, a folder, pages and pictures are saved
+// there as PNG.  Ends with 1 if anything is wrong.
 
 import { readFileSync, readdirSync, mkdirSync } from 'node:fs'
 import { createRequire } from 'node:module'
@@ -82,7 +82,8 @@ function measure(limits) {
     const meets = ({ a, b }, r) => {
       let from = 0, to = 1
       const dx = b.x - a.x, dy = b.y - a.y
-      for (const [p, q] of [[-dx, a.x - r.x0], [dx, r.x1 - a.x], [-dy, a.y - r.y0], [dy, r.y1 - a.y]]) {
+      for (const [p, q] of [[-dx, a.x - r.x0], [dx, r.x1 - a.x],
+                            [-dy, a.y - r.y0], [dy, r.y1 - a.y]]) {
         if (p === 0) { if (q < 0) return false } else if (p < 0) { from = Math.max(from, q / p) }
         else { to = Math.min(to, q / p) }
       }
@@ -97,7 +98,9 @@ function measure(limits) {
       const size = Math.min(...[...svg.querySelectorAll('text')]
         .map((node) => parseFloat(getComputedStyle(node).fontSize)))
       const shown = size * Math.min(1, limits.width / svg.viewBox.baseVal.width)
-      if (shown < limits.size) found.problems.push(`its words are ${shown.toFixed(1)} px in a README`)
+      if (shown < limits.size) {
+        found.problems.push(`its words are ${shown.toFixed(1)} px in a README`)
+      }
     }
     const contacts = [...svg.querySelectorAll('.view circle.contact, .view circle.contact-hidden')]
       .map(box)
@@ -131,8 +134,8 @@ function measure(limits) {
   return found
 }
 
-// Runs in the page: the words, or parts of words between hyphens, that are broken, though they would
-// fit into a line.
+// Runs in the page: the words, or parts of words between hyphens, that are broken, though they
+// would fit into a line.
 function brokenWords() {
   const broken = []
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT)
