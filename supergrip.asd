@@ -31,8 +31,7 @@
                              (:file "read-grasps")
                              (:file "preliminary-assertions")
                              (:file "box-facts")
-                             (:file "box-for-gripper")
-                             (:file "curves")))
+                             (:file "box-for-gripper")))
                (:module "plan"
                 :serial t
                 :components ((:file "quality")
@@ -63,6 +62,7 @@
                              (:file "how")
                              (:file "why-not-grasp")
                              (:file "questions")
+                             (:file "curves")
                              (:file "candidate-curves")
                              (:file "least-change")
                              (:file "demand")
