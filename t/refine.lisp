@@ -234,6 +234,15 @@
                                             :refine t)
                    2))))
 
+(test the-refined-hand-of-a-box-with-a-pose-is-told-in-the-world
+  (let* ((pose '((10 20 30) (0 0 0.6d0 0.8d0)))
+         (plan (supergrip:plan (with-entries *good-box* :pose pose)))
+         (refined (getf (supergrip::plan-record plan :refine t) :refined)))
+    (is (equalp (supergrip::hand-in-world (getf refined :hand)
+                                          (supergrip::%box-pose (supergrip:plan-box plan)))
+                (getf refined :world)))
+    (is (not (equalp (getf refined :hand) (getf refined :world))))))
+
 (test what-refining-gained-is-told-in-words
   (let ((refinement (first (refined-pencil))))
     (destructuring-bind (first . others) (printed (supergrip:explain-refinement refinement))

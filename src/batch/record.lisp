@@ -57,20 +57,23 @@ record tells of the best, from :GRASP to :CONTACTS and from :SURE on."
 (defun refined-part (plan)
   "Return what REFINE makes of PLAN, a plist, NIL without a grasp: :GRASP and :MATCHING; :QUALITY,
 exact and certified, :QUALITY-BEFORE, the same before the fingers moved, and :QUALITY-BOUND, which
-no legal places exceed; :BETA, the exact radius, (LOWER UPPER); :CONTACTS and :HAND after the move."
+no legal places exceed; :BETA, the exact radius, (LOWER UPPER); :CONTACTS, :HAND and :WORLD, as in a
+record, after the move."
   (let ((refinement (refine plan)))
     (when refinement
-      (let ((candidate (refinement-candidate refinement))
-            (contacts (refinement-contacts refinement)))
-        (list :grasp (candidate-grasp candidate)
-              :matching (candidate-matching candidate)
-              :quality (refinement-quality refinement)
-              :quality-before (refinement-quality-before refinement)
-              :quality-bound (refinement-quality-bound refinement)
-              :beta (refinement-radius refinement)
-              :contacts contacts
-              :hand (moved-hand (contacts-hand candidate contacts (plan-box plan))
-                                (refinement-shift refinement)))))))
+      (let* ((candidate (refinement-candidate refinement))
+             (contacts (refinement-contacts refinement))
+             (hand (moved-hand (contacts-hand candidate contacts (plan-box plan))
+                               (refinement-shift refinement))))
+        (list* :grasp (candidate-grasp candidate)
+               :matching (candidate-matching candidate)
+               :quality (refinement-quality refinement)
+               :quality-before (refinement-quality-before refinement)
+               :quality-bound (refinement-quality-bound refinement)
+               :beta (refinement-radius refinement)
+               :contacts contacts
+               :hand hand
+               (world-part hand (%box-pose (plan-box plan))))))))
 
 (defun moved-hand (hand shift)
   "Return HAND, as CANDIDATE-HAND has it, SHIFT, along X Y Z, farther."
