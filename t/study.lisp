@@ -11,6 +11,7 @@
 ;;;; sbcl --script t/study.lisp index                       u_w beside the exact radius
 ;;;; sbcl --script t/study.lisp refined [COUNT]              rules, trying everything, and refining
 ;;;; sbcl --script t/study.lisp grid [COUNT]                 refined grasps against all places of a grid
+;;;; sbcl --script t/study.lisp legal [COUNT]               refined grasps: legal, and no worse
 ;;;; sbcl --script t/study.lisp radii | python3 t/radii.py   exact radii by other means
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
@@ -518,6 +519,9 @@ another grasp, or one elsewhere on the box, is then the best."
              (print-times ways)
              (draw-if-possible ways refinements))))
         ((equal what "grid") (print-grid (parse-integer (or (first files) "200"))))
+        ((equal what "legal")
+         (unless (print-legal (parse-integer (or (first files) "200")))
+           (sb-ext:exit :code 1)))
         ((equal what "radii") (print-radii 300 (sb-ext:seed-random-state 1)))
         ((equal what "compare") (apply #'print-comparison files))
         (t
