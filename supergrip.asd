@@ -249,6 +249,7 @@
                (:file "from-contacts")
                (:file "exact")
                (:file "hand-frame")
+               (:file "refined-places")
                (:file "refine")
                (:file "read-gripper")
                (:file "grasp-entries")

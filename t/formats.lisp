@@ -52,6 +52,15 @@ python3."
     (is (search "gravity=\"0.0 0.0 0.0\""
                 (supergrip::mjcf-text (supergrip:plan (changed-box :weight 0)))))))
 
+(test a-model-may-have-its-fingers-elsewhere
+  (let* ((plan (pencil-plan))
+         (contacts (supergrip:candidate-contacts (supergrip:plan-best plan) plan))
+         (moved (substitute (list* :position '(-1 -1 0) (first contacts)) (first contacts) contacts)))
+    (is (equal (supergrip::mjcf-text plan) (supergrip::mjcf-text plan nil contacts)))
+    (let ((model (supergrip::mjcf-text plan nil moved)))
+      (is (search "<body name=\"F1\" pos=\"-0.01 -0.012 0.0\"" model))
+      (is (search "<body name=\"F2\" pos=\"0.0086875 -0.012 0.0\"" model)))))
+
 (test fingers-press-as-hard-as-they-can-and-hold-the-weight
   "By statics alone: what the fingers press holds the weight, and none can press more than its
 share."

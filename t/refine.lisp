@@ -3,97 +3,6 @@
 (in-package :supergrip-test)
 (define-suite refine "Fingers moved to better places: legal, surely better, and how good it can get.")
 
-;;; What is legal, once more, from the contacts alone
-
-(defun gripper-length (name)
-  (rest (assoc name (supergrip:knowledge-gripper supergrip:*knowledge*) :test #'string=)))
-
-(defun face-normal-axis (face) (position (char face 0) "XYZ"))
-(defun side-of (face) (if (char= (char face 1) #\1) 1 -1))
-(defun other-side (face) (format nil "~a~a" (char face 0) (if (= 1 (side-of face)) 2 1)))
-
-(defun reaches (grasp matching size)
-  "Return how far the hand of GRASP, a shipped one, reaches from which face: a list of (FACE CM)."
-  (flet ((face (name) (nth (position name '(n1 n2 o1 o2 a1 a2)) matching)))
-    (let* ((d (nth (face-normal-axis (face 'n1)) size)) (link (gripper-length "FINGER-LENGTH"))
-           (base (gripper-length "FINGER-DIST"))
-           (inner (if (> base d) (sqrt (- (expt link 2) (expt (/ (- d base) 2) 2))) 0)))
-      (cond ((search "U-SHAPE" grasp)
-             `((,(face 'n2) ,(gripper-length "REACH-U")) (,(face 'a2) ,(gripper-length "REACH-U"))))
-            ((search "C-SHAPE" grasp)
-             `((,(face 'o2) ,(gripper-length "REACH-C")) (,(face 'a2) ,(gripper-length "REACH-C"))))
-            ((search "-PARALLEL" grasp) `((,(face 'a2) ,(+ link inner))))))))
-
-(defun place-fault (contact home size)
-  "Return what is wrong with the place of CONTACT, which was HOME, on a box of SIZE, or NIL."
-  (let ((face (getf contact :surface)) (width (gripper-length "FINGER-WIDTH")))
-    (unless (and (equal face (getf home :surface)) (equal (getf contact :normal) (getf home :normal)))
-      (return-from place-fault "another face"))
-    (loop for axis below 3
-          for place in (getf contact :position)
-          for half in (mapcar (lambda (s) (/ s 2)) size)
-          do (if (= axis (face-normal-axis face))
-                 (unless (close-to place (* (side-of face) half))
-                   (return-from place-fault "off its face"))
-                 (unless (<= (abs place) (+ 1d-8 (max 0 (- half (/ width 2)))))
-                   (return-from place-fault "too near an edge"))))))
-
-(defun distance-fault (one two)
-  "Return what is wrong with the distance of the contacts ONE and TWO, or NIL."
-  (let* ((a (getf one :surface)) (b (getf two :surface)) (spread (gripper-length "FINGER-SPREAD"))
-         (way (mapcar #'- (getf one :position) (getf two :position)))
-         (way (if (equal a (other-side b))
-                  (loop for w in way for axis below 3 collect (if (= axis (face-normal-axis a)) 0 w))
-                  way))
-         (apart (sqrt (reduce #'+ way :key (lambda (w) (* w w))))))
-    (destructuring-bind (least most)
-        (cond ((equal a b) (list (gripper-length "FINGER-WIDTH") spread))
-              ((equal a (other-side b)) (list 0 (/ spread 2)))
-              (t (list 0 (gripper-length "DIST-PINCH"))))
-      (unless (<= (- least 1d-6) apart (+ most 1d-6))
-        (format nil "~a apart" apart)))))
-
-(defun placement-fault (contacts homes grasp matching box)
-  "Return why CONTACTS are no legal places for the fingers of GRASP in MATCHING, which were HOMES, or NIL."
-  (let ((size (supergrip:box-size box)))
-    (or (loop for contact in contacts for home in homes thereis (place-fault contact home size))
-        (loop for (one . others) on contacts
-              thereis (loop for two in others thereis (distance-fault one two)))
-        (loop for (face reach) in (reaches grasp matching size)
-              for axis = (face-normal-axis face)
-              thereis (loop for contact in contacts
-                            for depth = (- (/ (nth axis size) 2)
-                                           (* (side-of face) (nth axis (getf contact :position))))
-                            unless (<= depth (+ reach 1d-8))
-                              return (format nil "~a deep, it reaches ~a" depth reach)))
-        (loop for face in '("X1" "Y1" "Z1")
-              for axis from 0
-              for room = (/ (- (nth axis size) (gripper-length "WIDTH-HAND")) 2)
-              thereis (and (member face (supergrip:box-constrained box) :test #'string=)
-                           (member (other-side face) (supergrip:box-constrained box) :test #'string=)
-                           (loop for contact in contacts
-                                 unless (<= (abs (nth axis (getf contact :position)))
-                                            (+ 1d-8 room (/ (gripper-length "FINGER-SPREAD") 2)))
-                                   return "the hand meets a constrained face"))))))
-
-(defun refined-fault (refinement)
-  "Return why the places of REFINEMENT are not legal, or NIL; fingers that were not moved may stay."
-  (let ((candidate (supergrip:refinement-candidate refinement)))
-    (and (supergrip:refinement-moved-p refinement)
-         (placement-fault (supergrip:refinement-contacts refinement)
-                          (supergrip:refinement-home refinement)
-                          (supergrip:candidate-grasp candidate)
-                          (supergrip:candidate-matching candidate)
-                          (supergrip:plan-box (supergrip:refinement-plan refinement))))))
-
-(defun contacts-radius (contacts box)
-  "Return the exact radius of CONTACTS, plists, for the task of BOX, upper and certified."
-  (supergrip:exact-radius (loop for contact in contacts
-                                collect (list (getf contact :position) (getf contact :normal)))
-                          (supergrip:box-friction box) (supergrip:box-soft-friction box)
-                          (supergrip:box-force-needed box)
-                          :gravity (list 0 0 (- (supergrip:box-weight box)) 0 0 0)))
-
 (defun graspable-plans (count seed)
   "Return plans that have a grasp for COUNT boxes on a table that need forces."
   (let ((state (sb-ext:seed-random-state seed)))
@@ -110,16 +19,16 @@
   (dolist (plan (graspable-plans 12 1))
     (let* ((refinement (supergrip:refine plan :count 1 :regions 200))
            (box (supergrip:plan-box plan)))
-      (is (null (refined-fault refinement)) "~a: ~a" box (refined-fault refinement))
+      (is (null (refinement-faults refinement)) "~a: ~a" box (refinement-faults refinement))
       (is (<= (supergrip:refinement-quality-before refinement)
               (supergrip:refinement-quality refinement)
               (supergrip:refinement-quality-bound refinement)))
       (multiple-value-bind (upper lower)
-          (contacts-radius (supergrip:refinement-contacts refinement) box)
+          (exact-radius-of (contacts-case (supergrip:refinement-contacts refinement) box))
         (destructuring-bind (sure most) (supergrip:refinement-radius refinement)
           (is (<= sure upper)) (is (<= lower most))))
       (when (supergrip:refinement-moved-p refinement)
-        (is (< (nth-value 1 (contacts-radius (supergrip:refinement-home refinement) box))
+        (is (< (second (supergrip:refinement-radius-before refinement))
                (first (supergrip:refinement-radius refinement))))))))
 
 (defun random-placement (refinement state)
@@ -140,7 +49,7 @@
                                                                 (+ place s (- (random 1d0 state)
                                                                               0.5d0))))
                                               home))
-          unless (placement-fault contacts homes (supergrip:candidate-grasp candidate)
+          unless (placement-faults contacts homes (supergrip:candidate-grasp candidate)
                                   (supergrip:candidate-matching candidate) box)
             return contacts)))
 
@@ -152,7 +61,9 @@
               for contacts = (random-placement refinement state)
               when contacts
                 do (incf checked)
-                   (is (<= (or (nth-value 1 (contacts-radius contacts (supergrip:plan-box plan))) 0)
+                   (is (<= (or (nth-value 1 (exact-radius-of
+                                             (contacts-case contacts (supergrip:plan-box plan))))
+                               0)
                            (* (+ 1d0 1d-9) (supergrip:refinement-radius-bound refinement)))))))
     (is (< 40 checked))))
 
@@ -236,7 +147,7 @@
 
 (test the-refined-hand-of-a-box-with-a-pose-is-told-in-the-world
   (let* ((pose '((10 20 30) (0 0 0.6d0 0.8d0)))
-         (plan (supergrip:plan (with-entries *good-box* :pose pose)))
+         (plan (supergrip:plan (append *good-box* `((:pose ,@pose)))))
          (refined (getf (supergrip::plan-record plan :refine t) :refined)))
     (is (equalp (supergrip::hand-in-world (getf refined :hand)
                                           (supergrip::%box-pose (supergrip:plan-box plan)))

@@ -12,12 +12,6 @@
     (loop for number below count
           collect (supergrip:parse-box (if (evenp number) (table-box state) (household-box state))))))
 
-(defun mixed-quality (force velocity gamma)
-  "Return the quality of the radii FORCE and VELOCITY, NIL where there is none."
-  (cond ((null velocity) force)
-        ((null force) velocity)
-        (t (+ (* gamma velocity) (* (- 1 gamma) force)))))
-
 (defun exact-quality (plan)
   "Return the quality of the best grasp of PLAN by its certified exact radius, 0 for the radius where the
 contacts do not hold the weight; NIL without a grasp.  The second value is true if they hold it."

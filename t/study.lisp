@@ -1,17 +1,18 @@
 ;;;; study.lisp -- measures what docs/ says about many boxes; no part of the tests.
 ;;;;
-;;;; sbcl --script t/study.lisp                              what docs/reconstruction.md counts
-;;;; sbcl --script t/study.lisp cases | python3 t/cones.py   how tight bounds are, for docs/physics.md
-;;;; sbcl --script t/study.lisp compare RULES GRASPS         what other files answer differently
-;;;; sbcl --script t/study.lisp further-work                 what docs/further-work.md counts
-;;;; sbcl --script t/study.lisp sure                         how tight the sure radius is
+;;;; sbcl --script t/study.lisp                             what docs/reconstruction.md counts
+;;;; sbcl --script t/study.lisp cases | python3 t/cones.py  how tight bounds are, for docs/physics.md
+;;;; sbcl --script t/study.lisp compare RULES GRASPS        what other files answer differently
+;;;; sbcl --script t/study.lisp further-work                what docs/further-work.md counts
+;;;; sbcl --script t/study.lisp sure                        how tight the sure radius is
 ;;;; sbcl --script t/study.lisp choice                      exact choices, candidate by candidate
 ;;;; sbcl --script t/study.lisp lifting                     what sound lifting loses
 ;;;; sbcl --script t/study.lisp lying                       what changes when the frame of a box is turned
 ;;;; sbcl --script t/study.lisp index                       u_w beside the exact radius
-;;;; sbcl --script t/study.lisp refined [COUNT]              rules, trying everything, and refining
-;;;; sbcl --script t/study.lisp grid [COUNT [SEED]]          refined grasps against all places of a grid
-;;;; sbcl --script t/study.lisp radii | python3 t/radii.py   exact radii by other means
+;;;; sbcl --script t/study.lisp refined [COUNT]             rules, trying everything, and refining
+;;;; sbcl --script t/study.lisp grid [COUNT [SEED]]         refined grasps against all places of a grid
+;;;; sbcl --script t/study.lisp legal [COUNT]               refined grasps: legal, and no worse
+;;;; sbcl --script t/study.lisp radii | python3 t/radii.py  exact radii by other means
 
 (load (merge-pathnames "registry.lisp" *load-truename*))
 
@@ -518,7 +519,10 @@ another grasp, or one elsewhere on the box, is then the best."
              (print-times ways)
              (draw-if-possible ways refinements))))
         ((equal what "grid") (print-grid (parse-integer (or (first files) "200"))
-                                           (parse-integer (or (second files) "7"))))
+                                         (parse-integer (or (second files) "7"))))
+        ((equal what "legal")
+         (unless (print-legal (parse-integer (or (first files) "200")))
+           (sb-ext:exit :code 1)))
         ((equal what "radii") (print-radii 300 (sb-ext:seed-random-state 1)))
         ((equal what "compare") (apply #'print-comparison files))
         (t

@@ -118,10 +118,11 @@ without weight it is as of a hundredth of a finger force."
                  conaffinity=\"1\" rgba=\"0.3 0.3 0.3 1\"/>~%    </body>~%"
             name (number-in-text (/ radius 100d0)) (number-in-text (/ newtons 10)))))
 
-(defun mjcf-text (plan &optional line)
-  "Return the best grasp of PLAN, of the box in LINE, as a model for MuJoCo.  The key \"hold\" has
-the forces of the fingers that hold the weight, the weakest as great as can be."
-  (let* ((best (plan-best plan)) (box (plan-box plan)) (contacts (candidate-contacts best plan))
+(defun mjcf-text (plan &optional line (contacts (candidate-contacts (plan-best plan) plan)))
+  "Return the best grasp of PLAN, of the box in LINE, as a model for MuJoCo; its fingers are at
+CONTACTS.  The key \"hold\" has the forces of the fingers that hold the weight, the weakest as great
+as can be."
+  (let* ((best (plan-best plan)) (box (plan-box plan))
          (newtons (or (finger-newtons plan) 1d0)) (limit (number-in-text newtons))
          (forces (pressing contacts box (mapcar #'- (box-gravity box)))))
     (with-output-to-string (out)
