@@ -40,10 +40,24 @@ DESCRIBE-GRASP."
   "Return the phrase that says which words KEY may have, \"; WRENCH FROM-CONTACTS computes it\"."
   (format nil "~{; ~a ~a computes it~}" (loop for word in (part-words key) append (list key word))))
 
-(defun complain-of-word (key word)
-  "Complain that WORD is no value of KEY."
-  (complain word "~a is not a list of six entries~a~a" (form-text word)
-            (suggestion (symbol-name word) (part-words key)) (words-hint key)))
+(defun lone-word (value)
+  "Return the name that VALUE is, or that is all of the list VALUE; or NIL."
+  (cond ((namep value) value)
+        ((and (consp value) (namep (first value)) (null (rest value))) (first value))))
+
+(defun within-form-p (name form)
+  "True if NAME, a string, stands in the list FORM."
+  (and (consp form)
+       (some (lambda (part) (or (name= part name) (within-form-p name part))) form)))
+
+(defun buried-word (key value)
+  "Return the word of KEY that stands within the list VALUE, where no word may, or NIL."
+  (find-if (lambda (word) (within-form-p word value)) (part-words key)))
+
+(defun complain-of-word (key value)
+  "Complain that VALUE, a name or the list of one, is no value of KEY."
+  (complain value "~a is not a list of six entries~a~a" (form-text value)
+            (suggestion (symbol-name (lone-word value)) (part-words key)) (words-hint key)))
 
 ;;; Nodes
 
@@ -176,11 +190,21 @@ distance of the bases, and the places of the fingers, three each."
 (defun distance-form (axis)
   `(:dist (:quote ,(pair-names axis))))
 
+(defparameter +reach-word+ "FROM-FINGERS" "The word that may stand in place of a length in REACH.")
+
+(defun complain-of-axis (name value)
+  "Complain that NAME, in the REACH VALUE, is no axis; what is a face was meant to be its axis."
+  (let ((face (and (namep name) (grasp-face-index name))))
+    (complain value "~a is not an axis~@[ (did you mean ~a?)~]: REACH is along N, O or A"
+              (form-text name) (and face (svref +axis-names+ (floor face 2))))))
+
 (defun reach-entries (value)
   "Return the list of (AXIS . REACH) that VALUE, axes and reaches in turn, gives; or complain."
   (if (or (not (listp value)) (oddp (length value)))
-      (complain value "~a: REACH gives axes and lengths in turn, such as (N 4.85 A 4.85)"
-                (form-text value))
+      (complain value "~a: REACH gives axes and lengths in turn, such as (N 4.85 A 4.85) or (A ~a)~a"
+                (form-text value) +reach-word+
+                (let ((word (lone-word value)))
+                  (if word (suggestion (symbol-name word) (list +reach-word+)) "")))
       (let ((entries (loop for (name reach) on value by #'cddr
                            collect (cons (and (namep name)
                                               (position name +axis-names+ :test #'name=))
@@ -188,8 +212,7 @@ distance of the bases, and the places of the fingers, three each."
         (loop for (axis . reach) in entries
               for (name) on value by #'cddr
               do (cond ((null axis)
-                        (return (complain value "~a is not an axis: REACH is along N, O or A"
-                                          (form-text name))))
+                        (return (complain-of-axis name value)))
                        ((/= 1 (count axis entries :key #'car))
                         (return (complain value "the reach along ~a is given twice" name)))
                        ((and (realp reach) (not (plusp reach)))
@@ -230,10 +253,17 @@ distance between the bases.  Source: the paper, OFFSET of PINCH-2-PARALLEL."
                                      (:t 0)))))))))
 
 (defun missing-reach-form (axis reach placement)
-  "Return the form of what half the box along AXIS has more than REACH."
-  (if (name= reach "FROM-FINGERS")
-      (finger-reach-form axis placement)
-      `(:posit (:- (:/ ,(distance-form axis) 2) ,reach))))
+  "Return the form of what half the box along AXIS has more than REACH, or NIL after a complaint."
+  (let ((names (mapcar #'car (scope-variables (placement-scope placement)))))
+    (cond ((name= reach +reach-word+) (finger-reach-form axis placement))
+          ((and (namep reach) (not (name-in reach names)))
+           (complain reach "~a is not a length~a; a reach is ~a, a number, or a form of the ~
+                            gripper's dimensions"
+                     reach (suggestion (symbol-name reach) (cons +reach-word+ names)) +reach-word+))
+          ((within-form-p +reach-word+ reach)
+           (complain reach "~a: ~a stands alone, in place of a length" (form-text reach)
+                     +reach-word+))
+          (t `(:posit (:- (:/ ,(distance-form axis) 2) ,reach))))))
 
 (defun reach-form (value placement)
   "Return the form of the OFFSET that REACH VALUE leaves, or NIL after a complaint."
