@@ -102,7 +102,7 @@
 
 ;;; Every question, option and format, for every hand
 
-(defparameter *jaw-rules*
+(defparameter *bare-jaw-rules*
   "(RULE SIDES
   (IF (OPPOSED (s1 s2)) (NOT CONSTRAINED (s1)) (NOT CONSTRAINED (s2)))
   (THEN (TRY JAW (s1 s2 ? ? ? ?))))")
@@ -111,7 +111,7 @@
   "Return the knowledge of a jaw with GRIPPER, the text of its dimensions, that opens to OPENING; its
 WRENCH is a formula, or COMPUTED."
   (values (text-knowledge
-           *jaw-rules*
+           *bare-jaw-rules*
            (format nil "(SETQ GRIPPER '(MODEL \"jaw\" ~a))
 (SETQ JAW '(USED-SURFACES (N1 N2 A2) CONDITIONS ((DIST '(N1 N2)) < ~a)
   ~:[OFFSET (0 0 0 0 0 0) WRENCH (1 (* 2 u) (* 2 u) (* 2 v) 1 1)~;REACH (A 4)~]

@@ -45,6 +45,15 @@ DESCRIBE-GRASP."
   (cond ((namep value) value)
         ((and (consp value) (namep (first value)) (null (rest value))) (first value))))
 
+(defun warn-of-long-reach (axis reach scope)
+  "Warn if REACH, along AXIS, is a number above all lengths of the gripper in SCOPE."
+  (let ((hand (longest-dimension (loop for (name . node) in (scope-dimensions scope)
+                                       collect (cons name (constant-value node))))))
+    (when (and hand (realp reach) (> reach (cdr hand)))
+      (complain *form* '(:warning "the reach along ~a is ~a cm, and the hand's greatest dimension is ~a, ~
+                                   ~a; where the hand reaches that far, let the gripper name how far")
+                (svref +axis-names+ axis) (form-text reach) (car hand) (number-text (cdr hand))))))
+
 (defun within-form-p (name form)
   "True if NAME, a string, stands in the list FORM."
   (and (consp form)
@@ -263,7 +272,8 @@ distance between the bases.  Source: the paper, OFFSET of PINCH-2-PARALLEL."
           ((within-form-p +reach-word+ reach)
            (complain reach "~a: ~a stands alone, in place of a length" (form-text reach)
                      +reach-word+))
-          (t `(:posit (:- (:/ ,(distance-form axis) 2) ,reach))))))
+          (t (warn-of-long-reach axis reach (placement-scope placement))
+             `(:posit (:- (:/ ,(distance-form axis) 2) ,reach))))))
 
 (defun reach-form (value placement)
   "Return the form of the OFFSET that REACH VALUE leaves, or NIL after a complaint."
