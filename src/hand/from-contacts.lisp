@@ -6,6 +6,8 @@
 
 (in-package :supergrip)
 
+(defparameter +axis-names+ #("N" "O" "A"))
+
 (defstruct placement
   "Where a grasp puts the hand, as far as its description is read: the grasp faces USED, that of the
 PALM, CONTACTS as PARSE-CONTACTS returns them, and OFFSET, a node of six, in SCOPE."
@@ -189,8 +191,6 @@ distance of the bases, and the places of the fingers, three each."
           'numbers))
 
 ;;; How far the hand reaches
-
-(defparameter +axis-names+ #("N" "O" "A"))
 
 (defun pair-names (axis)
   "Return the names of the two grasp faces of AXIS, 0 to 2."
