@@ -206,3 +206,20 @@
                              (after (supergrip:plan-quality (supergrip:plan box :knowledge further))))
                         (is-true (or (null before) (and after (>= after (- before 1d-9))))
                                  "~a: ~a, was ~a" box after before))))))
+
+(test sheets-are-held-where-lateral-can
+  "Where the hand spans only the thin side, LATERAL is tried before the box is given up."
+  (let ((state (sb-ext:seed-random-state 3)) (further (further-work)) (held 0))
+    (loop repeat 60
+          for box = `((size ,(random-between 12d0 25d0 state) ,(random-between 12d0 25d0 state)
+                            ,(random-between 0.3d0 4d0 state))
+                      (weight ,(random-between 0.01d0 1d0 state))
+                      (u ,(random-between 0.101d0 1d0 state)) (v 0.2d0) (constrained)
+                      (force-needed (1 1 1 1 1 1)) (velocity-needed (1 1 1 1 1 1)))
+          for plan = (supergrip:plan box :knowledge further)
+          do (if (supergrip:plan-best plan)
+                 (when (equal "LATERAL" (supergrip:plan-grasp plan)) (incf held))
+                 (is (null (supergrip:plan-best
+                            (supergrip:try-grasp "LATERAL" box :knowledge further)))
+                     "~s" box)))
+    (is (plusp held))))
