@@ -152,8 +152,8 @@
       (SMALL (s1 s2)))
   (THEN (TRY LATERAL (s1 s2 ? ? ? ?))))
 
-;;; Ours: a sheet so large that the hand spans only its thin side.  It reaches far from the fingers, and none but
-;;; fingers that lie along it hold it where it is heavy or smooth.
+;;; Ours: a sheet so large that the hand spans only its thin side.  It reaches far from the fingers,
+;;; and none but fingers that lie along it hold it where it is heavy or smooth.
 (RULE LATERAL3
   (IF (PARALLEL (s1 s2))
       (NOT WIDE (s1 s2))

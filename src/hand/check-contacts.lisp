@@ -1,8 +1,10 @@
-;;;; check-contacts.lisp -- contacts that can't be meant: nothing opposes them, or they are on no box.
+;;;; check-contacts.lisp -- contacts that can't be meant: nothing opposes them, or they are on no
+;;;; box.
 ;;;;
-;;;; That all contacts are on one face shows by itself.  Where a contact is may depend on the box.  So it is
-;;;; looked at on many boxes that CONDITIONS allow.  It is warned of if it is beyond an edge, or farther out
-;;;; than the hand is long, on all of them.  Nothing is said where CONDITIONS allow none of them.
+;;;; That all contacts are on one face shows by itself.  Where a contact is may depend on the
+;;;; box.  So it is looked at on many boxes that CONDITIONS allow.  It is warned of if it is beyond
+;;;; an edge, or farther out than the hand is long, on all of them.  Nothing is said where
+;;;; CONDITIONS allow none of them.
 
 (in-package :supergrip)
 
@@ -19,9 +21,9 @@
          (face (first faces)) (other (logxor face 1)) (forms (contact-forms grasp)))
     (when (every (lambda (other) (= other face)) faces)
       (complain (or forms (grasp-definition grasp))
-                '(:warning "~@[~a: ~]~[~;a single finger, on ~a, can~:;all fingers are on ~a: they can~] ~
-                            push the box, and not hold it; add a finger on a face that opposes, such as (~a 0 0)~
-                            ~@[, and ~a to USED-SURFACES~]")
+                '(:warning "~@[~a: ~]~[~;a single finger, on ~a, can~:;all fingers are on ~a: ~
+                            they can~] push the box, and not hold it; add a finger on a face that ~
+                            opposes, such as (~a 0 0)~@[, and ~a to USED-SURFACES~]")
                 (and forms (form-text forms)) (length faces) (svref +grasp-faces+ face)
                 (svref +grasp-faces+ other)
                 (and (not (member other (grasp-used grasp))) (svref +grasp-faces+ other))))))
@@ -49,8 +51,9 @@
     (subseq numbers 0 (min +most-thresholds+ (length numbers)))))
 
 (defun sizes-to-try (parts hand)
-  "Return sizes for the edges of boxes, for a grasp with PARTS of CONDITIONS and a HAND, its greatest
-dimension: from a hundredth of it to twenty times it, and both sides of thresholds; the likely first."
+  "Return sizes for the edges of boxes, for a grasp with PARTS of CONDITIONS and a HAND, its
+greatest dimension: from a hundredth of it to twenty times it, and both sides of thresholds; the
+likely first."
   (sort (append (loop for power from -18 to 12 collect (* hand (expt 1.28d0 power)))
                 (loop for number in (form-thresholds parts)
                       append (list (* 0.999d0 number) number (* 1.001d0 number))))
@@ -74,8 +77,8 @@ dimension: from a hundredth of it to twenty times it, and both sides of threshol
                    ,@body)))))))))
 
 (defun put-box (registers grasp u blocked n o a)
-  "Put into REGISTERS a box of N, O, A cm with the friction U; BLOCKED is 1 if the faces that GRASP does
-not use are constrained, else 0."
+  "Put into REGISTERS a box of N, O, A cm with the friction U; BLOCKED is 1 if the faces that
+GRASP does not use are constrained, else 0."
   (declare (type registers registers) (double-float u blocked n o a))
   (setf (aref registers +u+) u
         (aref registers +v+) 0.2d0
@@ -101,9 +104,10 @@ REGISTERS.  NIL if the conditions are false, or something has no value."
 ;;; Contacts that are nowhere
 
 (defstruct stray
-  "A contact that was on no box so far: its NUMBER, from 0, and its FACE; PLACES, axes and registers in
-turn.  FAR is the least distance that it was out where the hand is shorter, EDGE the least by which it
-was beyond an edge elsewhere, FAR-AXIS and EDGE-AXIS along which axes; NIL where that never was."
+  "A contact that was on no box so far: its NUMBER, from 0, and its FACE; PLACES, axes and
+registers in turn.  FAR is the least distance that it was out where the hand is shorter, EDGE the
+least by which it was beyond an edge elsewhere, FAR-AXIS and EDGE-AXIS along which axes; NIL where
+that never was."
   (number 0) (face 0) (places '()) (far nil) (far-axis 0) (edge nil) (edge-axis 0))
 
 (defun strays-of (grasp)
@@ -123,8 +127,8 @@ was beyond an edge elsewhere, FAR-AXIS and EDGE-AXIS along which axes; NIL where
     (values worst worst-axis)))
 
 (defun note-stray (stray registers centre most)
-  "Return true if STRAY is on its face of the box in REGISTERS, at CENTRE, and no farther out than MOST;
-if it is not, note by how much."
+  "Return true if STRAY is on its face of the box in REGISTERS, at CENTRE, and no farther out than
+MOST; if it is not, note by how much."
   (declare (type registers registers) (type three centre))
   (multiple-value-bind (out axis)
       (worst-along stray (lambda (axis register)
@@ -145,8 +149,8 @@ if it is not, note by how much."
             (t t)))))
 
 (defun find-strays (grasp graspbase hand most)
-  "Return the contacts of GRASP that are on no box that was looked at, or farther out than MOST, strays,
-and how many boxes its conditions allowed.  HAND is how large boxes are about, in cm."
+  "Return the contacts of GRASP that are on no box that was looked at, or farther out than MOST,
+strays, and how many boxes its conditions allowed.  HAND is how large boxes are about, in cm."
   (let ((registers (copy-seq (graspbase-registers graspbase)))
         (centre (make-array 3 :element-type 'double-float)) (left (strays-of grasp)) (count 0))
     (without-float-traps
@@ -159,18 +163,20 @@ and how many boxes its conditions allowed.  HAND is how large boxes are about, i
     (values left count)))
 
 (defun complain-of-stray (stray form count hand)
-  "Warn that STRAY, whose FORM may be NIL, is on none of COUNT boxes.  HAND is the name and the size of the
-greatest dimension of the hand, or NIL."
+  "Warn that STRAY, whose FORM may be NIL, is on none of COUNT boxes.  HAND is the name and the
+size of the greatest dimension of the hand, or NIL."
   (let ((face (svref +grasp-faces+ (stray-face stray))))
     (if (stray-edge stray)
-        (complain form '(:warning "~:[contact ~d~;~:*~a~*~]: of ~d boxes that CONDITIONS allow, on none is ~
-                                   this a place of ~a that the hand reaches; at best it is ~a cm beyond the edge along ~a; places ~
-                                   are lengths from the grasp centre, in cm")
+        (complain form '(:warning "~:[contact ~d~;~:*~a~*~]: of ~d boxes that CONDITIONS allow, on ~
+                                   none is this a place of ~a that the hand reaches; at best it is ~
+                                   ~a cm beyond the edge along ~a; places are lengths from the ~
+                                   grasp centre, in cm")
                   (and form (form-text form)) (1+ (stray-number stray)) count face
                   (number-text (stray-edge stray)) (svref +axis-names+ (stray-edge-axis stray)))
-        (complain form '(:warning "~:[contact ~d~;~:*~a~*~]: this is ~a cm from the grasp centre along ~a, and ~
-                                   the hand's greatest dimension is ~a, ~a; places are lengths in cm; where a ~
-                                   finger is that far out, let the gripper name how far")
+        (complain form '(:warning "~:[contact ~d~;~:*~a~*~]: this is ~a cm from the grasp centre ~
+                                   along ~a, and the hand's greatest dimension is ~a, ~a; places ~
+                                   are lengths in cm; where a finger is that far out, let the ~
+                                   gripper name how far")
                   (and form (form-text form)) (1+ (stray-number stray))
                   (number-text (stray-far stray)) (svref +axis-names+ (stray-far-axis stray))
                   (car hand) (number-text (cdr hand))))))
@@ -178,9 +184,10 @@ greatest dimension of the hand, or NIL."
 (defun check-places (grasp graspbase)
   "Warn of the contacts of GRASP that are on no box that was looked at."
   (let ((hand (longest-dimension (gripper-dimensions (graspbase-gripper graspbase)))))
-    (multiple-value-bind (strays count) (if hand
-                                   (find-strays grasp graspbase (cdr hand) (* (cdr hand) (+ 1 1d-9)))
-                                   (find-strays grasp graspbase 10d0 most-positive-double-float))
+    (multiple-value-bind (strays count)
+        (if hand
+            (find-strays grasp graspbase (cdr hand) (* (cdr hand) (+ 1 1d-9)))
+            (find-strays grasp graspbase 10d0 most-positive-double-float))
       (when (plusp count)
         (dolist (stray strays)
           (complain-of-stray stray (nth (stray-number stray) (contact-forms grasp)) count hand))))))

@@ -52,8 +52,9 @@ DESCRIBE-GRASP."
   (let ((hand (longest-dimension (loop for (name . node) in (scope-dimensions scope)
                                        collect (cons name (constant-value node))))))
     (when (and hand (realp reach) (> reach (cdr hand)))
-      (complain *form* '(:warning "the reach along ~a is ~a cm, and the hand's greatest dimension is ~a, ~
-                                   ~a; where the hand reaches that far, let the gripper name how far")
+      (complain *form* '(:warning "the reach along ~a is ~a cm, and the hand's greatest dimension ~
+                                   is ~a, ~a; where the hand reaches that far, let the gripper ~
+                                   name how far")
                 (svref +axis-names+ axis) (form-text reach) (car hand) (number-text (cdr hand))))))
 
 (defun within-form-p (name form)
@@ -210,7 +211,8 @@ distance of the bases, and the places of the fingers, three each."
 (defun reach-entries (value)
   "Return the list of (AXIS . REACH) that VALUE, axes and reaches in turn, gives; or complain."
   (if (or (not (listp value)) (oddp (length value)))
-      (complain value "~a: REACH gives axes and lengths in turn, such as (N 4.85 A 4.85) or (A ~a)~a"
+      (complain value "~a: REACH gives axes and lengths in turn, such as (N 4.85 A 4.85) or (A ~
+                       ~a)~a"
                 (form-text value) +reach-word+
                 (let ((word (lone-word value)))
                   (if word (suggestion (symbol-name word) (list +reach-word+)) "")))

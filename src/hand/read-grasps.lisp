@@ -234,8 +234,8 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
 
 (defun complain-of-offset-word (value)
   "Complain that VALUE, a name or the list of one, is no OFFSET."
-  (complain value "~a is not a list of six entries; REACH may take the place of OFFSET, such as REACH ~
-                   (A ~a)" (form-text value) +reach-word+))
+  (complain value "~a is not a list of six entries; REACH may take the place of OFFSET, such as ~
+                   REACH (A ~a)" (form-text value) +reach-word+))
 
 (defun parse-offset (offset reach placement)
   "Return the node of what the entries OFFSET or REACH give, and the form that REACH leaves."

@@ -38,8 +38,8 @@ its file and line as a text, if it has a file of its own."
         (and (eql 0 (search "cm" (third row))) (string/= name "PALM-DEPTH")))))
 
 (defun longest-dimension (dimensions)
-  "Return that of DIMENSIONS, an alist from name to number, which is the greatest length, in cm; NIL if
-there is none."
+  "Return that of DIMENSIONS, an alist from name to number, which is the greatest length, in cm; NIL
+if there is none."
   (let ((lengths (loop for entry in dimensions
                        when (and (length-name-p (car entry)) (plusp (cdr entry))) collect entry)))
     (and lengths (reduce (lambda (a b) (if (> (cdr b) (cdr a)) b a)) lengths))))

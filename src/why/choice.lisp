@@ -11,10 +11,10 @@ measure: :FORCE, :TORQUE or NIL."
 (defstruct (choice (:include explanation))
   "Why the best grasp of PLAN is the best.  SENTENCE says how it holds the box; FORCE and VELOCITY are
 LIMITs or NIL; SURE is CANDIDATE-SURE of the best; TRUTH is the EXACT-LIMIT of its forces, whatever
-the index is, or NIL; DEMAND is a DEMAND, of absolute needs, or NIL; RUNNER-UP is the next candidate or
-NIL, MARGIN its distance in Q; EQUALS counts the candidates, RUNNER-UP included, that have the same Q as
-the best; CHANGES is a list of CHANGEs, the smallest first; STEPPED are the names of values that were
-only looked at in steps."
+the index is, or NIL; DEMAND is a DEMAND, of absolute needs, or NIL; RUNNER-UP is the next candidate
+or NIL, MARGIN its distance in Q; EQUALS counts the candidates, RUNNER-UP included, that have the
+same Q as the best; CHANGES is a list of CHANGEs, the smallest first; STEPPED are the names of
+values that were only looked at in steps."
   plan sentence force velocity sure truth demand runner-up margin (equals 0) (changes '())
   (stepped '()))
 
@@ -184,9 +184,11 @@ choice to change."
 
 (defun write-runner-up (answer stream)
   "Write which candidate is next to the best one of ANSWER, and how near it is."
-  (let ((next (choice-runner-up answer)) (margin (choice-margin answer)) (equals (choice-equals answer)))
+  (let ((next (choice-runner-up answer)) (margin (choice-margin answer))
+        (equals (choice-equals answer)))
     (when next
-      (format stream "Next is ~a (~{~a~^ ~}), with " (candidate-grasp next) (candidate-matching next))
+      (format stream "Next is ~a (~{~a~^ ~}), with " (candidate-grasp next)
+              (candidate-matching next))
       (cond ((> margin +tie+)
              (format stream "a Q lower by ~@[at least ~*~]~a.~%" (candidate-bound-p next)
                      (number-text margin)))

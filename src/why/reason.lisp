@@ -1,5 +1,5 @@
-;;;; reason.lisp -- why a box can't be grasped: what a rule said and the figures behind it, or the nearest
-;;;; miss.
+;;;; reason.lisp -- why a box can't be grasped: what a rule said and the figures behind it, or the
+;;;; nearest miss.
 
 (in-package :supergrip)
 
@@ -19,15 +19,16 @@
         (input-row-dimension (prepared-input-row input)))))
 
 (defun leaves (derivation plan)
-  "Return the derivations of what the box gives that DERIVATION follows from, those that tell something."
+  "Return the derivations of what the box gives that DERIVATION follows from, those that tell
+something."
   (cond ((assumption-p derivation) '())
         ((derivation-rule derivation)
          (loop for part in (derivation-parts derivation) append (leaves part plan)))
         ((telling-p derivation plan) (list derivation))))
 
 (defun block-leaves (predicate memory plan)
-  "Return what of the box keeps all rules of PLAN from saying PREDICATE, as far as facts stand in their
-way; MEMORY holds what was known."
+  "Return what of the box keeps all rules of PLAN from saying PREDICATE, as far as facts stand in
+their way; MEMORY holds what was known."
   (loop for rule in (deriving-rules predicate plan)
         for refusal = (failing-clause rule memory plan (constantly t))
         when refusal
@@ -49,7 +50,8 @@ way; MEMORY holds what was known."
   (let ((memory (plan-memory plan)) (table (derivations plan)) (seen '()) (leaves '()))
     (dolist (binding (rule-bindings rule memory))
       (dolist (clause (rule-clauses rule))
-        (let ((key (fact-key (clause-predicate clause) (instantiate (clause-terms clause) binding))))
+        (let ((key (fact-key (clause-predicate clause)
+                             (instantiate (clause-terms clause) binding))))
           ;; Most bindings go by the same facts.
           (unless (member key seen)
             (push key seen)
@@ -101,15 +103,15 @@ way; MEMORY holds what was known."
         (not (and stop (eq (stop-rule stop) rule)))))))
 
 (defun beside (threshold now)
-  "Return THRESHOLD and what is just beyond it, seen from NOW: lists, each with the words before and after
-the number."
+  "Return THRESHOLD and what is just beyond it, seen from NOW: lists, each with the words before
+and after the number."
   (let ((up (<= now threshold)))
     (list (list threshold "" (if up " or more" " or less"))
           (list (* threshold (if up (+ 1 1d-9) (- 1 1d-9))) (if up "more than " "less than ") ""))))
 
 (defun value-remedy (rule plan row index name threshold)
-  "Return in words to what the value of the key ROW, at INDEX, called NAME, must change past THRESHOLD so
-that RULE lets the box of PLAN pass; NIL if that does not help."
+  "Return in words to what the value of the key ROW, at INDEX, called NAME, must change past
+THRESHOLD so that RULE lets the box of PLAN pass; NIL if that does not help."
   (let* ((box (plan-box plan)) (measure (box-key-measure row)))
     (loop for (value before after) in (beside threshold (value-at box row index))
           when (and (plusp value) (let-pass-p rule (box-with-at box row index value) plan))
@@ -117,8 +119,8 @@ that RULE lets the box of PLAN pass; NIL if that does not help."
                           (with-unit (number-text (in-units threshold measure)) measure) after))))
 
 (defun leaf-remedy (leaf rule plan)
-  "Return in words how the value that LEAF tells of would have to change so that RULE lets the box of PLAN
-pass; NIL if that alone does not help.  The second value is true if that is not known."
+  "Return in words how the value that LEAF tells of would have to change so that RULE lets the box
+of PLAN pass; NIL if that alone does not help.  The second value is true if that is not known."
   (let* ((input (prepared-row (derivation-predicate leaf) plan))
          (dimension (and input (input-row-dimension (prepared-input-row input))))
          (faces (derivation-face-list leaf)))
@@ -132,8 +134,8 @@ pass; NIL if that alone does not help.  The second value is true if that is not 
             (t (values nil t))))))
 
 (defun face-remedy (faces rule plan)
-  "Return in words which of FACES, names of constrained ones, would have to be free so that RULE lets the
-box of PLAN pass, each alone; NIL if none helps."
+  "Return in words which of FACES, names of constrained ones, would have to be free so that RULE
+lets the box of PLAN pass, each alone; NIL if none helps."
   (let* ((box (plan-box plan)) (now (%box-constrained box))
          (helping (loop for name in faces
                         for without = (logandc2 now (ash 1 (face-index name)))
@@ -142,11 +144,12 @@ box of PLAN pass, each alone; NIL if none helps."
     (and helping
          (words (if (rest helping) "one of " "") (joined ", " helping) " free"))))
 
-(defparameter +most-leaves+ 4 "Of how many things of the box a reason tells, constrained faces apart.")
+(defparameter +most-leaves+ 4
+  "Of how many things of the box a reason tells, constrained faces apart.")
 
 (defun remedies-text (leaves faces rule plan open)
-  "Return what of LEAVES, and of the constrained FACES, would have to change so that RULE lets the box of
-PLAN pass, in words.  OPEN is true if there is more that might."
+  "Return what of LEAVES, and of the constrained FACES, would have to change so that RULE lets the
+box of PLAN pass, in words.  OPEN is true if there is more that might."
   (let ((remedies '()))
     (dolist (leaf leaves)
       (multiple-value-bind (remedy unknown) (leaf-remedy leaf rule plan)
@@ -178,8 +181,8 @@ change, in words; NIL if it went by none."
 ;;; The reason
 
 (defun plan-reason (&optional (plan (last-plan)))
-  "Return why the box of PLAN can't be grasped, a string: what the rule said, with the figures that it
-went by, or the nearest miss.  NIL if it can."
+  "Return why the box of PLAN can't be grasped, a string: what the rule said, with the figures
+that it went by, or the nearest miss.  NIL if it can."
   (let* ((stop (plan-stop (need-plan plan)))
          (said (and stop (eq (stop-verdict stop) :cant)))
          (miss (and (not said) (not (plan-best plan)) (nearest-miss (plan-candidates plan) plan))))
