@@ -11,9 +11,9 @@
   `((,(refused-box '(0.1d0 4 4) 0.5d0 '(x1))
      "TOO SMALL TO PICK UP: X1 and X2 are 0.1 cm apart, less than FINGER-WIDTH, 0.3; X1 is constrained; it takes X of 0.3 cm or more, or X1 free")
     (,(refused-box '(0.1d0 4 4) 0.5d0 '(x1 x2))
-     "TOO SMALL TO PICK UP: X1 and X2 are 0.1 cm apart, less than FINGER-WIDTH, 0.3; X1, X2 are constrained; it takes X of 0.3 cm or more")
+     "TOO SMALL TO PICK UP: X1 and X2 are 0.1 cm apart, less than FINGER-WIDTH, 0.3; X1, X2 are constrained; it takes X of 0.3 cm or more, or all of X1, X2 free")
     (,(refused-box '(0.1d0 0.2d0 4) 0.5d0 '(x1 y2))
-     "TOO SMALL TO PICK UP: Y1 and Y2 are 0.2 cm apart, less than FINGER-WIDTH, 0.3; X1 and X2 are 0.1 cm apart, less than FINGER-WIDTH, 0.3; X1, Y2 are constrained; it takes more than one change")
+     "TOO SMALL TO PICK UP: Y1 and Y2 are 0.2 cm apart, less than FINGER-WIDTH, 0.3; X1 and X2 are 0.1 cm apart, less than FINGER-WIDTH, 0.3; X1, Y2 are constrained; it takes all of X1, Y2 free")
     (,(refused-box '(1 40 40) 0.5d0 '(x1) '(units mm finger))
      "TOO SMALL TO PICK UP: X1 and X2 are 1 mm apart, less than FINGER-WIDTH, 3; X1 is constrained; it takes X of 3 mm or more, or X1 free")
     (,(refused-box '(4 4 4) 0.05d0 '())
@@ -75,6 +75,12 @@
     (is (equal "CANT HOLD: Z1 and Z2 are 15 cm apart, no less than DIST-PINCH, 12; Y1 and Y2 are 14 cm apart, no less than DIST-PINCH, 12; X1 and X2 are 13 cm apart, no less than DIST-PINCH, 12; it takes Z of less than 12 cm, or Y of less than 12 cm, or X of less than 12 cm"
                (supergrip:plan-reason (supergrip:plan (refused-box '(13 14 15) 0.5d0 '())
                                                       :knowledge knowledge))))
+    (is (equal "CANT HOLD: Y1 and Y2 are 0.2 cm apart, less than FINGER-WIDTH, 1; X1 and X2 are 0.1 cm apart, less than FINGER-WIDTH, 1; it takes more than one change"
+               (supergrip:plan-reason
+                (supergrip:plan (refused-box '(0.1d0 0.2d0 5) 0.5d0 '())
+                                :knowledge (text-knowledge
+                                            "(RULE R (IF (SMALL (s1 s2))) (THEN (CANT HOLD)))"
+                                            *good-grasps*)))))
     (is (equal "CANT SAY"
                (supergrip:plan-reason
                 (supergrip:plan (refused-box '(3 4 5) 0.5d0 '())

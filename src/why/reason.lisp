@@ -135,14 +135,15 @@ of PLAN pass; NIL if that alone does not help.  The second value is true if that
 
 (defun face-remedy (faces rule plan)
   "Return in words which of FACES, names of constrained ones, would have to be free so that RULE
-lets the box of PLAN pass, each alone; NIL if none helps."
-  (let* ((box (plan-box plan)) (now (%box-constrained box))
-         (helping (loop for name in faces
-                        for without = (logandc2 now (ash 1 (face-index name)))
-                        when (let-pass-p rule (box-with box (find-key :constrained) without) plan)
-                          collect name)))
-    (and helping
-         (words (if (rest helping) "one of " "") (joined ", " helping) " free"))))
+lets the box of PLAN pass: those that help alone, or else all; NIL if not even that helps."
+  (let* ((box (plan-box plan)) (now (%box-constrained box)))
+    (flet ((help-p (names)
+             (let ((set (reduce #'logior names :key (lambda (name) (ash 1 (face-index name))))))
+               (let-pass-p rule (box-with box (find-key :constrained) (logandc2 now set)) plan))))
+      (let ((helping (loop for name in faces when (help-p (list name)) collect name)))
+        (cond ((rest helping) (words "one of " (joined ", " helping) " free"))
+              (helping (words (first helping) " free"))
+              ((and (rest faces) (help-p faces)) (words "all of " (joined ", " faces) " free")))))))
 
 (defparameter +most-leaves+ 4
   "Of how many things of the box a reason tells, constrained faces apart.")
