@@ -35,7 +35,7 @@
                      (equal '("Y1" "Y2") (subseq (supergrip:candidate-matching candidate) 0 2))))
                (supergrip:plan-candidates plan)))
     (is (find '("FRAGILE" ("Y1")) (supergrip:plan-assertions plan) :test #'equal)))
-  (is (equal "CANT GRASP IT WET" (supergrip:plan-reason (gentle-plan '(wet)))))
+  (is (equal "CANT GRASP IT WET: the box says (WET)" (supergrip:plan-reason (gentle-plan '(wet)))))
   (is (null (supergrip:plan-candidates (gentle-plan))) "what no box says is false"))
 
 (test a-box-returns-its-facts

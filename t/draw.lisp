@@ -374,6 +374,43 @@ WRENCH (1 1 1 1 1 1) TWIST (1 1 1 1 1 1) CONTACTS (~{~a~^ ~}) PALM A2))~%" name 
       (signals supergrip:no-grasp-error
         (supergrip-draw:draw-offset (in-folder folder "x.svg") :knowledge jaw)))))
 
+(defun all-pictures (plan folder)
+  "Draw all there is of PLAN into FOLDER."
+  (loop for (name draw) in `(("plan.svg" ,#'supergrip-draw:draw-plan)
+                             ("quality.svg" ,#'supergrip-draw:draw-quality)
+                             ("section.svg" ,#'supergrip-draw:draw-section)
+                             ("session.svg" ,#'supergrip-draw:draw-session)
+                             ("page.html" ,#'supergrip-draw:report))
+        do (funcall draw plan (in-folder folder name)))
+  (let ((refinement (supergrip:refine plan :count 1 :regions 20)))
+    (when refinement
+      (supergrip-draw:draw-refinement refinement (in-folder folder "refinement.svg")))))
+
+(defun few-dimensions ()
+  "Return the knowledge of a jaw that names no more than its opening."
+  (values (text-knowledge
+           "(RULE R (IF (OPPOSED (s1 s2)) (NOT CONSTRAINED (s1)) (NOT CONSTRAINED (s2)))
+                    (THEN (TRY JAW (s1 s2 ? ? ? ?))))"
+           "(SETQ GRIPPER '(DIST-PINCH 8))
+            (SETQ JAW '(USED-SURFACES (N1 N2 A2) CONDITIONS ((DIST '(N1 N2)) < DIST-PINCH)
+                        REACH (A 4) TWIST (1 1 1 1 1 1)))")))
+
+(test every-picture-is-drawn-for-every-hand
+  (dolist (knowledge (list (hand :gripper "robotiq-3-finger.lisp") (hand :hand "robotiq-2f-85")
+                           (few-dimensions)))
+    (dolist (size '((12 2 2) (40 40 40)))
+      (dolist (index '(:paper :exact))
+        (with-folder (folder)
+          (all-pictures (supergrip:plan (apply #'sized-box size) :knowledge knowledge :index index)
+                        folder)
+          (supergrip-draw:draw-grasps (in-folder folder "grasps.svg") :knowledge knowledge)
+          (loop for (file complaints) in (parsed folder)
+                do (is (null complaints) "~a, ~a: ~a" size file complaints))))))
+  (with-folder (folder)
+    (dolist (draw (list #'supergrip-draw:draw-gripper #'supergrip-draw:draw-offset))
+      (signals supergrip:supergrip-error
+        (funcall draw (in-folder folder "x.svg") :knowledge (few-dimensions))))))
+
 (test pictures-do-not-depend-on-float-traps
   (let ((plan (supergrip:plan (sized-box 12 2 2))))
     (with-folder (folder)

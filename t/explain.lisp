@@ -162,7 +162,7 @@
                "  the friction u: 0.1, not 0.8; then it can't be grasped"
                "  the weight: 1.61, not 0.2; then it can't be grasped")
              (printed (supergrip:explain-best (pencil-plan)))))
-  (is (search "The box can't be grasped: CANT GRASP TOO SLIPPERY TO PICK UP."
+  (is (search "The box can't be grasped: CANT GRASP TOO SLIPPERY TO PICK UP: u is 0.05, no more than SLIPPERY-U, 0.1; it takes u of more than 0.1."
               (first (printed (supergrip:explain-best (plan-of '(8 5 3) 0.05d0 '(z2))))))))
 
 (test descriptions-tell-form-words-mark-and-use
@@ -509,3 +509,35 @@
   (is (equal "#<CANDIDATE PINCH-3-U-SHAPE (X1 X2 Y2 Y1 Z2 Z1) Q=0.770>"
              (let ((*package* (find-package :supergrip)))
                (prin1-to-string (first (supergrip:plan-candidates (pencil-plan))))))))
+
+;;; Equals
+
+(defun next-line (plan)
+  "Return the line of EXPLAIN-BEST on PLAN that tells of the next candidate."
+  (find-if (lambda (line) (eql 0 (search "Next is " line))) (printed (supergrip:explain-best plan))))
+
+(defun twin-plan (mobilities)
+  "Return a plan in which the pinches P1, P2, and so on, one for each of MOBILITIES, texts, that is its
+TWIST along O, are tried in one matching each."
+  (let ((numbers (loop for nil in mobilities for number from 1 collect number)))
+    (supergrip:plan
+     '((size 6 4 4) (weight 0.1d0) (u 0.5d0) (v 0.2d0) (constrained z2) (force-needed (0 0 0 0 0 0))
+       (velocity-needed (1 0 0 0 0 0)))
+     :knowledge
+     (text-knowledge
+      (format nil "(RULE R (IF (OPPOSED (Y1 Y2))) (THEN ~{(TRY P~a (y2 y1 x2 x1 z2 z1))~}))" numbers)
+      (format nil "(SETQ GRIPPER '(DIST-PINCH 12))~{~{~%(SETQ P~a '(USED-SURFACES (N1 N2 A2) CONDITIONS (T)
+  OFFSET (0 0 0 0 0 0) WRENCH (9 9 9 9 9 9) TWIST (1 ~a 1 1 1 1) CONTACTS ((N1 0 0) (N2 0 0))))~}~}"
+              (mapcar #'list numbers mobilities))))))
+
+(test of-equals-the-first-tried-is-kept-and-it-is-said-so
+  (loop for (mobilities . line) in
+        '((("0.8" "0.8") . "Next is P2 (Y2 Y1 X2 X1 Z2 Z1), with the same Q, but tried later: of equals the first tried is kept.")
+          (("0.8" "0.8" "0.8") . "Next is P2 (Y2 Y1 X2 X1 Z2 Z1), with the same Q, but tried later, as was another: of equals the first tried is kept.")
+          (("0.8" "0.8" "0.7" "0.8") . "Next is P2 (Y2 Y1 X2 X1 Z2 Z1), with the same Q, but tried later, as was another: of equals the first tried is kept.")
+          (("0.8" "0.8" "0.8" "0.8") . "Next is P2 (Y2 Y1 X2 X1 Z2 Z1), with the same Q, but tried later, as were two others: of equals the first tried is kept.")
+          ;; What differs by no more than rounding is equal, also if the later is the greater.
+          (("0.8" "0.80000000001") . "Next is P2 (Y2 Y1 X2 X1 Z2 Z1), with the same Q, but tried later: of equals the first tried is kept.")
+          (("0.7" "0.8") . "Next is P1 (Y2 Y1 X2 X1 Z2 Z1), with a Q lower by 0.1."))
+        do (is (equal line (next-line (twin-plan mobilities))) "~a" mobilities))
+  (is (equal "P1" (supergrip:plan-grasp (twin-plan '("0.8" "0.80000000001"))))))

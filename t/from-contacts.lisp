@@ -25,20 +25,25 @@
 
 (test mistakes-in-a-reach-are-named
   (loop for (reach . reports) in
-        '(("(A)" "REACH: (A): REACH gives axes and lengths in turn, such as (N 4.85 A 4.85)")
+        '(("(A)" "REACH: (A): REACH gives axes and lengths in turn, such as (N 4.85 A 4.85) or (A FROM-FINGERS)")
           ("(X 4)" "REACH: X is not an axis: REACH is along N, O or A")
-          ("(A2 4)" "REACH: A2 is not an axis: REACH is along N, O or A")
+          ("(A2 4)" "REACH: A2 is not an axis (did you mean A?): REACH is along N, O or A")
           ("(A 4 A 5)" "REACH: the reach along A is given twice")
           ("(A 0)" "REACH: the reach along A is 0, but must be above 0")
           ("(N 4)" "REACH: the hand does not come over N1 or N2, since both are used; leave the reach along N out")
           ("(O 4)" "REACH: the hand does not come over O1 or O2, since neither is used; leave the reach along O out")
-          ("(A FINGER-LENGHT)" "REACH: unknown name FINGER-LENGHT (did you mean FINGER-LENGTH?); known are U, V, the gripper's dimensions, a helper's parameters and what LET* binds")
+          ("(A FINGER-LENGHT)" "REACH: FINGER-LENGHT is not a length (did you mean FINGER-LENGTH?); a reach is FROM-FINGERS, a number, or a form of the gripper's dimensions")
+          ("(A FROM-FINGER)" "REACH: FROM-FINGER is not a length (did you mean FROM-FINGERS?); a reach is FROM-FINGERS, a number, or a form of the gripper's dimensions")
+          ("(A (* 2 FROM-FINGERS))" "REACH: (* 2 FROM-FINGERS): FROM-FINGERS stands alone, in place of a length")
+          ("(A (* 2 FINGER-LENGHT))" "REACH: unknown name FINGER-LENGHT (did you mean FINGER-LENGTH?); known are U, V, the gripper's dimensions, a helper's parameters and what LET* binds")
           ("(A 4) OFFSET (0 0 0 0 0 0)" ": REACH stands in place of OFFSET; give one of them"))
         do (is (equal (loop for report in reports
                             collect (format nil "grasps.lisp:7: GRASP G~:[, ~;~]~a"
                                             (eql #\: (char report 0)) report))
                       (reach-reports :palm (format nil "A2~% REACH ~a" reach)))
                "~a" reach))
+  (is (equal '("grasps.lisp:3: GRASP G, REACH: FROM-FINGER: REACH gives axes and lengths in turn, such as (N 4.85 A 4.85) or (A FROM-FINGERS) (did you mean FROM-FINGERS?)")
+             (reach-reports :palm "A2 REACH FROM-FINGER")))
   (is (equal '("grasps.lisp:7: GRASP G, REACH: FROM-FINGERS along A needs fingers on two opposite faces of one other axis; write a length instead")
              (reach-reports :used-surfaces "(N1 O1 A2)" :contacts "((N1 0 0) (O1 0 0))"
                             :palm (format nil "A2~% REACH (A FROM-FINGERS)")))))
@@ -46,6 +51,12 @@
 (test mistakes-in-words-are-named
   (is (equal '("grasps.lisp:3: GRASP G, WRENCH: FROM-CONTACT is not a list of six entries (did you mean FROM-CONTACTS?); WRENCH FROM-CONTACTS computes it")
              (grasp-reports :wrench "FROM-CONTACT")))
+  (is (equal '("grasps.lisp:7: GRASP G, TWIST: (FROM-CONTACT) is not a list of six entries (did you mean FROM-CONTACTS?); TWIST FROM-CONTACTS computes it")
+             (grasp-reports :twist "(FROM-CONTACT)")))
+  (is (equal '("grasps.lisp:6: GRASP G, WRENCH: (FROM-CONTACTS 1 1 1 1 1): FROM-CONTACTS stands alone, in place of six entries")
+             (grasp-reports :wrench "(FROM-CONTACTS 1 1 1 1 1)")))
+  (is (equal '("grasps.lisp:3: GRASP G, OFFSET: FROM-FINGERS is not a list of six entries; REACH may take the place of OFFSET, such as REACH (A FROM-FINGERS)")
+             (grasp-reports :offset "FROM-FINGERS")))
   (is (null (grasp-reports :wrench "FROM-CONTACTS" :twist "from-contacts"))))
 
 ;;; What is derived
@@ -201,3 +212,20 @@
                                                                             :knowledge further))))
                         (is-true (or (null before) (and after (>= after (- before 1d-9))))
                                  "~a: ~a, was ~a" box after before))))))
+
+(test sheets-are-held-where-lateral-can
+  "Where the hand spans only the thin side, LATERAL is tried before the box is given up."
+  (let ((state (sb-ext:seed-random-state 3)) (further (further-work)) (held 0))
+    (loop repeat 60
+          for box = `((size ,(random-between 12d0 25d0 state) ,(random-between 12d0 25d0 state)
+                            ,(random-between 0.3d0 4d0 state))
+                      (weight ,(random-between 0.01d0 1d0 state))
+                      (u ,(random-between 0.101d0 1d0 state)) (v 0.2d0) (constrained)
+                      (force-needed (1 1 1 1 1 1)) (velocity-needed (1 1 1 1 1 1)))
+          for plan = (supergrip:plan box :knowledge further)
+          do (if (supergrip:plan-best plan)
+                 (when (equal "LATERAL" (supergrip:plan-grasp plan)) (incf held))
+                 (is (null (supergrip:plan-best
+                            (supergrip:try-grasp "LATERAL" box :knowledge further)))
+                     "~s" box)))
+    (is (plusp held))))

@@ -190,7 +190,8 @@
   (let ((everything (everything-knowledge (with-wide-faces (file-text "grasps.lisp"))))
         (thin 0))
     (dolist (box (random-boxes 2000 23))
-      (when (equal "CANT GRASP TOO SMALL TO PICK UP" (supergrip:plan-reason (supergrip:plan box)))
+      (when (eql 0 (search "CANT GRASP TOO SMALL TO PICK UP: "
+                           (or (supergrip:plan-reason (supergrip:plan box)) "")))
         (incf thin)
         (is (null (supergrip:plan-quality (supergrip:plan box :knowledge everything))) "~s" box)))
     (is (> thin 200)))

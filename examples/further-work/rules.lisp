@@ -1,4 +1,4 @@
-;;;; rules.lisp -- the rules that try the grasps of this directory: the paper's fifteen and two.
+;;;; rules.lisp -- the rules that try the grasps of this directory: the paper's fifteen and three.
 ;;;;
 ;;;; This file is data: read by SUPER-GRIP's own reader, checked and turned into functions.
 ;;;; docs/languages.md, "Rules", says what may stand here.  Rules run in the order of this
@@ -150,6 +150,15 @@
 (RULE LATERAL2
   (IF (PARALLEL (s1 s2))
       (SMALL (s1 s2)))
+  (THEN (TRY LATERAL (s1 s2 ? ? ? ?))))
+
+;;; Ours: a sheet so large that the hand spans only its thin side.  It reaches far from the fingers,
+;;; and none but fingers that lie along it hold it where it is heavy or smooth.
+(RULE LATERAL3
+  (IF (PARALLEL (s1 s2))
+      (NOT WIDE (s1 s2))
+      (LARGE (s3 s4))
+      (LARGE (s5 s6)))
   (THEN (TRY LATERAL (s1 s2 ? ? ? ?))))
 
 ;;; Reconstructed: all parallel pairs are too wide.  What is left is a corner, which the paper lists

@@ -6,6 +6,8 @@
 
 (in-package :supergrip)
 
+(defparameter +axis-names+ #("N" "O" "A"))
+
 (defstruct placement
   "Where a grasp puts the hand, as far as its description is read: the grasp faces USED, that of the
 PALM, CONTACTS as PARSE-CONTACTS returns them, and OFFSET, a node of six, in SCOPE."
@@ -40,10 +42,34 @@ DESCRIBE-GRASP."
   "Return the phrase that says which words KEY may have, \"; WRENCH FROM-CONTACTS computes it\"."
   (format nil "~{; ~a ~a computes it~}" (loop for word in (part-words key) append (list key word))))
 
-(defun complain-of-word (key word)
-  "Complain that WORD is no value of KEY."
-  (complain word "~a is not a list of six entries~a~a" (form-text word)
-            (suggestion (symbol-name word) (part-words key)) (words-hint key)))
+(defun lone-word (value)
+  "Return the name that VALUE is, or that is all of the list VALUE; or NIL."
+  (cond ((namep value) value)
+        ((and (consp value) (namep (first value)) (null (rest value))) (first value))))
+
+(defun warn-of-long-reach (axis reach scope)
+  "Warn if REACH, along AXIS, is a number above all lengths of the gripper in SCOPE."
+  (let ((hand (longest-dimension (loop for (name . node) in (scope-dimensions scope)
+                                       collect (cons name (constant-value node))))))
+    (when (and hand (realp reach) (> reach (cdr hand)))
+      (complain *form* '(:warning "the reach along ~a is ~a cm, and the hand's greatest dimension ~
+                                   is ~a, ~a; where the hand reaches that far, let the gripper ~
+                                   name how far")
+                (svref +axis-names+ axis) (form-text reach) (car hand) (number-text (cdr hand))))))
+
+(defun within-form-p (name form)
+  "True if NAME, a string, stands in the list FORM."
+  (and (consp form)
+       (some (lambda (part) (or (name= part name) (within-form-p name part))) form)))
+
+(defun buried-word (key value)
+  "Return the word of KEY that stands within the list VALUE, where no word may, or NIL."
+  (find-if (lambda (word) (within-form-p word value)) (part-words key)))
+
+(defun complain-of-word (key value)
+  "Complain that VALUE, a name or the list of one, is no value of KEY."
+  (complain value "~a is not a list of six entries~a~a" (form-text value)
+            (suggestion (symbol-name (lone-word value)) (part-words key)) (words-hint key)))
 
 ;;; Nodes
 
@@ -168,8 +194,6 @@ the distance of the bases, and the places of the fingers, three each."
 
 ;;; How far the hand reaches
 
-(defparameter +axis-names+ #("N" "O" "A"))
-
 (defun pair-names (axis)
   "Return the names of the two grasp faces of AXIS, 0 to 2."
   (list (svref +grasp-faces+ (* 2 axis)) (svref +grasp-faces+ (1+ (* 2 axis)))))
@@ -177,11 +201,22 @@ the distance of the bases, and the places of the fingers, three each."
 (defun distance-form (axis)
   `(:dist (:quote ,(pair-names axis))))
 
+(defparameter +reach-word+ "FROM-FINGERS" "The word that may stand in place of a length in REACH.")
+
+(defun complain-of-axis (name value)
+  "Complain that NAME, in the REACH VALUE, is no axis; what is a face was meant to be its axis."
+  (let ((face (and (namep name) (grasp-face-index name))))
+    (complain value "~a is not an axis~@[ (did you mean ~a?)~]: REACH is along N, O or A"
+              (form-text name) (and face (svref +axis-names+ (floor face 2))))))
+
 (defun reach-entries (value)
   "Return the list of (AXIS . REACH) that VALUE, axes and reaches in turn, gives; or complain."
   (if (or (not (listp value)) (oddp (length value)))
-      (complain value "~a: REACH gives axes and lengths in turn, such as (N 4.85 A 4.85)"
-                (form-text value))
+      (complain value "~a: REACH gives axes and lengths in turn, such as (N 4.85 A 4.85) or (A ~
+                       ~a)~a"
+                (form-text value) +reach-word+
+                (let ((word (lone-word value)))
+                  (if word (suggestion (symbol-name word) (list +reach-word+)) "")))
       (let ((entries (loop for (name reach) on value by #'cddr
                            collect (cons (and (namep name)
                                               (position name +axis-names+ :test #'name=))
@@ -189,8 +224,7 @@ the distance of the bases, and the places of the fingers, three each."
         (loop for (axis . reach) in entries
               for (name) on value by #'cddr
               do (cond ((null axis)
-                        (return (complain value "~a is not an axis: REACH is along N, O or A"
-                                          (form-text name))))
+                        (return (complain-of-axis name value)))
                        ((/= 1 (count axis entries :key #'car))
                         (return (complain value "the reach along ~a is given twice" name)))
                        ((and (realp reach) (not (plusp reach)))
@@ -230,10 +264,18 @@ than the distance between the bases.  Source: the paper, OFFSET of PINCH-2-PARAL
                                      (:t 0)))))))))
 
 (defun missing-reach-form (axis reach placement)
-  "Return the form of what half the box along AXIS has more than REACH."
-  (if (name= reach "FROM-FINGERS")
-      (finger-reach-form axis placement)
-      `(:posit (:- (:/ ,(distance-form axis) 2) ,reach))))
+  "Return the form of what half the box along AXIS has more than REACH, or NIL after a complaint."
+  (let ((names (mapcar #'car (scope-variables (placement-scope placement)))))
+    (cond ((name= reach +reach-word+) (finger-reach-form axis placement))
+          ((and (namep reach) (not (name-in reach names)))
+           (complain reach "~a is not a length~a; a reach is ~a, a number, or a form of the ~
+                            gripper's dimensions"
+                     reach (suggestion (symbol-name reach) (cons +reach-word+ names)) +reach-word+))
+          ((within-form-p +reach-word+ reach)
+           (complain reach "~a: ~a stands alone, in place of a length" (form-text reach)
+                     +reach-word+))
+          (t (warn-of-long-reach axis reach (placement-scope placement))
+             `(:posit (:- (:/ ,(distance-form axis) 2) ,reach))))))
 
 (defun reach-form (value placement)
   "Return the form of the OFFSET that REACH VALUE leaves, or NIL after a complaint."

@@ -46,7 +46,8 @@ of a number up to a million."
                                                       (max digits
                                                            (1+ (decimal-exponent (rational size))))
                                                       digits))
-               (plain-text "~:[~;-~]~a" (minusp number) (decimal-text whole exponent)))))))
+               (let ((text (plainly (decimal-text whole exponent))))
+                 (if (minusp number) (concatenate 'string "-" text) text)))))))
 
 (defun number-texts (&rest numbers)
   "Return texts of NUMBERS, with four significant digits, or as many more as show which differ."

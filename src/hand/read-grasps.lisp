@@ -235,10 +235,17 @@ itself."
     `(let* ((,the-entry ,entry) (*place* ,key) (*form* (placed (third ,the-entry))))
        (counting-steps ((second ,the-entry)) ,@body))))
 
+(defun complain-of-offset-word (value)
+  "Complain that VALUE, a name or the list of one, is no OFFSET."
+  (complain value "~a is not a list of six entries; REACH may take the place of OFFSET, such as ~
+                   REACH (A ~a)" (form-text value) +reach-word+))
+
 (defun parse-offset (offset reach placement)
   "Return the node of what the entries OFFSET or REACH give, and the form that REACH leaves."
   (cond (offset (with-entry ("OFFSET" offset)
-                  (parse-form (second offset) (placement-scope placement) :six)))
+                  (if (lone-word (second offset))
+                      (complain-of-offset-word (second offset))
+                      (parse-form (second offset) (placement-scope placement) :six))))
         (reach (with-entry ("REACH" reach)
                  (let ((form (reach-form (second reach) placement)))
                    (and form
@@ -251,7 +258,10 @@ stands for one that is absent beside REACH.  PARSE is a function of any other va
     (when (or entry (funcall given "REACH"))
       (with-entry (key entry)
         (let ((value (if entry (second entry) :from-contacts)))
-          (cond ((not (namep value)) (funcall parse value (placement-scope placement)))
+          (cond ((and (not (lone-word value)) (buried-word key value))
+                 (complain value "~a: ~a stands alone, in place of six entries" (form-text value)
+                           (buried-word key value)))
+                ((not (lone-word value)) (funcall parse value (placement-scope placement)))
                 ((not (part-word key value)) (complain-of-word key value))
                 ((and (placement-contacts placement) (placement-offset placement))
                  (funcall (third (part-word key value)) placement value))))))))

@@ -31,6 +31,19 @@ PLACE, its file and line as a text, if it has a file of its own."
   "Return the dimension NAME, a string, of GRIPPER, a double, or NIL."
   (cdr (assoc name (gripper-dimensions gripper) :test #'string=)))
 
+(defun length-name-p (name)
+  "True if the dimension NAME is a length that a finger may span: all that are not known as others."
+  (let ((row (assoc name +dimensions+ :test #'string=)))
+    (or (null row)
+        (and (eql 0 (search "cm" (third row))) (string/= name "PALM-DEPTH")))))
+
+(defun longest-dimension (dimensions)
+  "Return that of DIMENSIONS, an alist from name to number, which is the greatest length, in cm; NIL
+if there is none."
+  (let ((lengths (loop for entry in dimensions
+                       when (and (length-name-p (car entry)) (plusp (cdr entry))) collect entry)))
+    (and lengths (reduce (lambda (a b) (if (> (cdr b) (cdr a)) b a)) lengths))))
+
 (defparameter +most-dimensions+ 200 "The most dimensions that a gripper may have.")
 
 (defun parse-dimension (name value form)

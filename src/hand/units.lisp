@@ -126,7 +126,8 @@ without cm."
 
 (defun with-unit (text measure &optional (units *units*))
   "Return TEXT, that of a number of MEASURE, with its unit: \"3.2 N\"."
-  (plain-text "~a~@[ ~a~]" text (unit-text-of measure units)))
+  (let ((unit (unit-text-of measure units)))
+    (if unit (concatenate 'string text " " unit) text)))
 
 (defun unit-phrase (measure &optional (units *units*))
   "Return the units of what has MEASURE, for a reader: \"finger forces\", \"N and N mm\"."

@@ -169,6 +169,8 @@ and the list of all problems.  What is wrong is left out."
     (when (null (rule-forms rule-file))
       (complain nil "there is no rule"))
     (check-rules (data-file-forms rule-file) (input-predicates)))
+  (with-data-file (grasp-file)
+    (check-contacts graspbase))
   ;; Where a rule was left out, that nothing tries a grasp is no news.
   (when (= (length (rulebase-rules rulebase)) (length (rule-forms rule-file)))
     (with-data-file (grasp-file)

@@ -147,7 +147,8 @@ figures WORKSPACE holds."
                       collect (svref (matching-faces (%candidate-matching candidate)) grasp-face)))
          (freedom (make-freedom :count (length faces) :faces faces :home home
                                 :low (copy-seq home) :high (copy-seq home))))
-    (flet ((dimension (name) (dimension graspbase name)))
+    ;; A hand that lacks a dimension is given no room by it: where its fingers stand is all it does.
+    (flet ((dimension (name) (or (dimension graspbase name) 0d0)))
       (limit-by-edges freedom (%box-size box) (dimension "FINGER-WIDTH"))
       (limit-by-reach freedom candidate workspace)
       (limit-by-room freedom box (dimension "WIDTH-HAND") (dimension "FINGER-SPREAD"))

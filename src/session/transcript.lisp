@@ -27,7 +27,7 @@
           ((unfinished-p plan) (format stream "(~a)~%" (plan-reason plan)))
           ((and stop (eq (stop-verdict stop) :cant))
            (format stream "(RULE ~a SAYS ~a)~%" (rule-name (stop-rule stop))
-                   (plan-reason plan)))
+                   (stop-text stop)))
           (t (format stream "(CANT GRASP: ~a)~%" (plan-reason plan))))))
 
 (defun output-stream (stream)

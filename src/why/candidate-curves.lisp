@@ -328,11 +328,13 @@ one is needed at all."
     (all-of (reverse tests))))
 
 (defun prospect-of (line candidate)
-  "Return the prospect of CANDIDATE along LINE, or NIL if it is possible nowhere."
+  "Return the prospect of CANDIDATE along LINE, or NIL if it is possible nowhere.  After a step that
+always fails no Q is computed."
   (let* ((grasp (%candidate-grasp candidate)) (matching (%candidate-matching candidate))
          (sheet (sheet-of line grasp matching))
          (possible (steps-curve sheet)))
-    (and (not (and (fixed-p possible) (zerop (curve-least possible))))
+    (and (sheet-quality sheet)
+         (not (and (fixed-p possible) (zerop (curve-least possible))))
          (make-prospect :grasp grasp :matching matching :possible possible
                         :quality (sheet-quality sheet)))))
 

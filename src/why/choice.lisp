@@ -11,11 +11,12 @@ measure: :FORCE, :TORQUE or NIL."
 (defstruct (choice (:include explanation))
   "Why the best grasp of PLAN is the best.  SENTENCE says how it holds the box; FORCE and VELOCITY
 are LIMITs or NIL; SURE is CANDIDATE-SURE of the best; TRUTH is the EXACT-LIMIT of its forces,
-whatever the index is, or NIL; DEMAND is a DEMAND, of absolute
-needs, or NIL; RUNNER-UP is the next candidate or NIL, MARGIN its distance in Q; CHANGES is a
-list of CHANGEs, the smallest first; STEPPED are the names of values that were only looked at in
-steps."
-  plan sentence force velocity sure truth demand runner-up margin (changes '()) (stepped '()))
+whatever the index is, or NIL; DEMAND is a DEMAND, of absolute needs, or NIL; RUNNER-UP is the next
+candidate or NIL, MARGIN its distance in Q; EQUALS counts the candidates, RUNNER-UP included, that
+have the same Q as the best; CHANGES is a list of CHANGEs, the smallest first; STEPPED are the names
+of values that were only looked at in steps."
+  plan sentence force velocity sure truth demand runner-up margin (equals 0) (changes '())
+  (stepped '()))
 
 ;;; How it holds the box
 
@@ -124,13 +125,19 @@ EXACT-LIMIT.")
 
 ;;; The answer
 
+(defun equals-p (other best)
+  "True if the candidate OTHER is surely as good as BEST."
+  (and (not (candidate-bound-p other))
+       (<= (- (candidate-quality best) (candidate-quality other)) +tie+)))
+
 (defun explain-choice (&optional (plan (last-plan)))
   "Return the CHOICE on PLAN: why its best grasp is the best, and what would change the choice."
   (when (unfinished-p (need-plan plan))
     (refuse-argument "the run is not over, so there is no best grasp yet"))
   (let* ((best (plan-best plan))
          (truth (and best (exact-force-limit best plan)))
-         (runner-up (second (plan-possible plan))))
+         (others (rest (best-grasps plan)))
+         (runner-up (first others)))
     (multiple-value-bind (changes stepped) (choice-changes-of plan)
       (make-choice :plan plan
                    :sentence (if best
@@ -141,9 +148,10 @@ EXACT-LIMIT.")
                    :velocity (and best (velocity-limit best plan))
                    :sure (and best (candidate-sure best plan))
                    :demand (and best (demand-on best plan))
-                   :runner-up (and best runner-up)
-                   :margin (and best runner-up
+                   :runner-up runner-up
+                   :margin (and runner-up
                                 (- (candidate-quality best) (candidate-quality runner-up)))
+                   :equals (count-if (lambda (other) (equals-p other best)) others)
                    :changes (stable-sort changes #'< :key #'change-distance)
                    :stepped stepped))))
 
@@ -167,19 +175,29 @@ choice to change."
            (unless (eq (choice-truth answer) (choice-force answer))
              (write-truth (choice-truth answer) stream))))
   (write-meaning answer stream)
-  (when (choice-runner-up answer)
-    (format stream "Next is ~a (~{~a~^ ~}), with ~:[the same Q, but tried later~;a Q lower by ~
-                    ~@[at least ~*~]~a~].~%"
-            (candidate-grasp (choice-runner-up answer))
-            (candidate-matching (choice-runner-up answer)) (> (choice-margin answer) +tie+)
-            (candidate-bound-p (choice-runner-up answer))
-            (number-text (choice-margin answer))))
+  (write-runner-up answer stream)
   (cond ((choice-changes answer) (write-changes (choice-changes answer) stream))
         ((eq (plan-index (choice-plan answer)) :paper)
          (format stream "No single need, friction or weight would change the choice.~%"))
         (t (format stream "What would change the choice is searched for by the paper's index ~
                            only.~%")))
   (write-stepped (choice-stepped answer) (choice-plan answer) stream))
+
+(defun write-runner-up (answer stream)
+  "Write which candidate is next to the best one of ANSWER, and how near it is."
+  (let ((next (choice-runner-up answer)) (margin (choice-margin answer))
+        (equals (choice-equals answer)))
+    (when next
+      (format stream "Next is ~a (~{~a~^ ~}), with " (candidate-grasp next)
+              (candidate-matching next))
+      (cond ((> margin +tie+)
+             (format stream "a Q lower by ~@[at least ~*~]~a.~%" (candidate-bound-p next)
+                     (number-text margin)))
+            ((candidate-bound-p next)
+             (format stream "no more than the same Q, and tried later.~%"))
+            (t (format stream "the same Q, but tried later~[~;, as was another~:;, as were ~:*~r ~
+                               others~]: of equals the first tried is kept.~%"
+                       (1- equals)))))))
 
 (defgeneric write-force-limit (limit stream)
   (:documentation "Write what limits u_w, LIMIT, or nothing for NIL.")

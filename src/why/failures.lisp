@@ -272,26 +272,3 @@ least."
     (or (and (eq (candidate-outcome candidate) :conditions)
              (too-wide-text candidate workspace))
         (failure-text (candidate-outcome candidate) (plan-index plan) candidate workspace))))
-
-(defun plan-reason (&optional (plan (last-plan)))
-  "Return why the box of PLAN can't be grasped, a string: what the rule said, or the nearest miss.
-NIL if it can."
-  (let* ((stop (plan-stop (need-plan plan)))
-         (said (and stop (eq (stop-verdict stop) :cant)))
-         (miss (and (not said) (not (plan-best plan)) (nearest-miss (plan-candidates plan) plan))))
-    (cond ((plan-best plan) nil)
-          ((unfinished-p plan) "THE RUN IS NOT OVER")
-          (said (plain-text "CANT ~{~a~^ ~}" (stop-words stop)))
-          (miss (plain-text "NO GRASP IS POSSIBLE, NEAREST MISS: ~a (~{~a~^ ~}): ~a"
-                            (candidate-grasp miss) (candidate-matching miss)
-                            (plainly (miss-text miss plan))))
-          ((plan-tries plan) "WHAT WAS TRIED WOULD USE A CONSTRAINED FACE")
-          (t "NO RULE SUGGESTS A GRASP WHOSE SURFACES ARE FREE"))))
-
-(defmethod print-object ((plan plan) stream)
-  (print-unreadable-object (plan stream :type t)
-    (plainly
-      (if (plan-best plan)
-          (format stream "~a (~{~a~^ ~}) Q=~,3f" (plan-grasp plan) (plan-matching plan)
-                  (plan-quality plan))
-          (format stream "~:[can't: ~;~]~a" (unfinished-p plan) (plan-reason plan))))))

@@ -1,0 +1,90 @@
+;;;; reason.lisp -- why a box can't be grasped: what a rule said, with the figures that it went by.
+
+(in-package :supergrip-test)
+(define-suite reason "Why a box can't be grasped: what a rule said, with the figures that it went by.")
+
+(defun refused-box (size u constrained &rest clauses)
+  `(,@clauses (size ,@size) (weight 0.1d0) (u ,u) (v 0.2d0) (constrained ,@constrained)
+    (force-needed (1 1 1 1 1 1)) (velocity-needed (1 1 1 1 1 1))))
+
+(defparameter *refused*
+  `((,(refused-box '(0.1d0 4 4) 0.5d0 '(x1))
+     "TOO SMALL TO PICK UP: X1 and X2 are 0.1 cm apart, less than FINGER-WIDTH, 0.3; X1 is constrained; it takes X of 0.3 cm or more, or X1 free")
+    (,(refused-box '(0.1d0 4 4) 0.5d0 '(x1 x2))
+     "TOO SMALL TO PICK UP: X1 and X2 are 0.1 cm apart, less than FINGER-WIDTH, 0.3; X1, X2 are constrained; it takes X of 0.3 cm or more, or all of X1, X2 free")
+    (,(refused-box '(0.1d0 0.2d0 4) 0.5d0 '(x1 y2))
+     "TOO SMALL TO PICK UP: Y1 and Y2 are 0.2 cm apart, less than FINGER-WIDTH, 0.3; X1 and X2 are 0.1 cm apart, less than FINGER-WIDTH, 0.3; X1, Y2 are constrained; it takes all of X1, Y2 free")
+    (,(refused-box '(1 40 40) 0.5d0 '(x1) '(units mm finger))
+     "TOO SMALL TO PICK UP: X1 and X2 are 1 mm apart, less than FINGER-WIDTH, 3; X1 is constrained; it takes X of 3 mm or more, or X1 free")
+    (,(refused-box '(4 4 4) 0.05d0 '())
+     "TOO SLIPPERY TO PICK UP: u is 0.05, no more than SLIPPERY-U, 0.1; it takes u of more than 0.1")
+    (,(refused-box '(4 4 4) 0.5d0 '(x1 x2 y1 y2))
+     "TOO CONSTRAINED TO PICK UP: X1, X2, Y1, Y2 are constrained; it takes one of X1, X2, Y1, Y2 free"))
+  "Boxes that shipped rules refuse, and the reasons, without CANT GRASP.")
+
+(test a-rule-that-refuses-tells-its-figures
+  (loop for (box reason) in *refused*
+        for plan = (supergrip:plan box)
+        do (is (equal (format nil "CANT GRASP ~a" reason) (supergrip:plan-reason plan)))
+           (is (equal (supergrip:plan-reason plan)
+                      (getf (supergrip::plan-record plan) :reason)))
+           (is (search reason (first (printed (supergrip:explain-best plan)))))))
+
+(test both-notations-tell-the-figures
+  (let ((record (supergrip::plan-record (supergrip:plan (first (first *refused*))))))
+    (is (search (second (first *refused*)) (json-line record)))
+    (is (search (second (first *refused*)) (lisp-line record)))))
+
+(test the-papers-line-has-no-figures
+  (let ((plan (supergrip:plan (first (first *refused*)))))
+    (is (search "(RULE GRIP1 SAYS CANT GRASP TOO SMALL TO PICK UP)" (transcript plan)))
+    (is (search "can't: CANT GRASP TOO SMALL TO PICK UP>" (princ-to-string plan)))))
+
+(defun numbers-after (mark text)
+  "Return the part of TEXT after MARK, or NIL."
+  (let ((place (search mark text)))
+    (and place (subseq text (+ place (length mark))))))
+
+(test what-a-reason-asks-for-lets-the-box-pass
+  "A size or a friction that is asked for, and a face that is to be free, help alone."
+  (let ((helped 0))
+    (dolist (box (random-boxes 600 31))
+      (let* ((plan (supergrip:plan box)) (stop (supergrip::plan-stop plan))
+             (wanted (and stop (numbers-after "it takes " (or (supergrip:plan-reason plan) "")))))
+        (flet ((passes-p (change)
+                 (not (equalp (supergrip::stop-text stop)
+                              (supergrip::short-reason
+                               (supergrip:plan (substitute change (first change) box :key #'first)))))))
+          (dolist (face '("X1" "X2" "Y1" "Y2" "Z1" "Z2"))
+            (when (and wanted (search (format nil "or ~a free" face) wanted))
+              (incf helped)
+              (is (passes-p `(constrained ,@(remove face (rest (assoc 'constrained box))
+                                                    :test #'string=)))
+                  "~s" box)))
+          (when (and wanted (search "u of more than 0.1" wanted))
+            (incf helped)
+            (is (passes-p '(u 0.1000001d0)) "~s" box)))))
+    (is (> helped 50))))
+
+(test what-several-facts-keep-from-being-said-is-told
+  (let ((knowledge (text-knowledge
+                    "(RULE ROOM (IF (OPPOSED (s1 s2)) (NOT LARGE (s1 s2)) (NOT CONSTRAINED (s1)))
+                                (THEN (REMEMBER ROOM)))
+                     (RULE NONE (IF (NO ROOM)) (THEN (CANT HOLD)))"
+                    *good-grasps*)))
+    (is (equal "CANT HOLD: Z1 and Z2 are 15 cm apart, no less than DIST-PINCH, 12; Y1 and Y2 are 14 cm apart, no less than DIST-PINCH, 12; X1 and X2 are 13 cm apart, no less than DIST-PINCH, 12; it takes Z of less than 12 cm, or Y of less than 12 cm, or X of less than 12 cm"
+               (supergrip:plan-reason (supergrip:plan (refused-box '(13 14 15) 0.5d0 '())
+                                                      :knowledge knowledge))))
+    (is (equal "CANT HOLD: Y1 and Y2 are 0.2 cm apart, less than FINGER-WIDTH, 1; X1 and X2 are 0.1 cm apart, less than FINGER-WIDTH, 1; it takes more than one change"
+               (supergrip:plan-reason
+                (supergrip:plan (refused-box '(0.1d0 0.2d0 5) 0.5d0 '())
+                                :knowledge (text-knowledge
+                                            "(RULE R (IF (SMALL (s1 s2))) (THEN (CANT HOLD)))"
+                                            *good-grasps*)))))
+    (is (equal "CANT SAY"
+               (supergrip:plan-reason
+                (supergrip:plan (refused-box '(3 4 5) 0.5d0 '())
+                                :knowledge (text-knowledge
+                                            "(RULE R (IF (OPPOSED (s1 s2))) (THEN (CANT SAY)))"
+                                            *good-grasps*))))
+        "what no number decides")))
