@@ -142,7 +142,8 @@ EXACT-LIMIT.")
       (make-choice :plan plan
                    :sentence (if best
                                  (grasp-sentence best (plan-box plan))
-                                 (format nil "The box can't be grasped: ~a" (plan-reason plan)))
+                                 (format nil "The box can't be grasped: ~a~@[.~%~a~]"
+                                         (plan-reason plan) (remedy-sentence plan)))
                    :force (and best (force-limit truth best plan))
                    :truth truth
                    :velocity (and best (velocity-limit best plan))

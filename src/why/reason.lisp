@@ -148,36 +148,52 @@ lets the box of PLAN pass: those that help alone, or else all; NIL if not even t
 (defparameter +most-leaves+ 4
   "Of how many things of the box a reason tells, constrained faces apart.")
 
-(defun remedies-text (leaves faces rule plan open)
-  "Return what of LEAVES, and of the constrained FACES, would have to change so that RULE lets the
-box of PLAN pass, in words.  OPEN is true if there is more that might."
-  (let ((remedies '()))
-    (dolist (leaf leaves)
-      (multiple-value-bind (remedy unknown) (leaf-remedy leaf rule plan)
-        (when remedy (push remedy remedies))
-        (when unknown (setf open t))))
-    (let ((free (and faces (face-remedy faces rule plan))))
-      (when free (push free remedies)))
-    (cond (remedies (words "; it takes " (joined ", or " (reverse remedies))))
-          (open "")
-          (t "; it takes more than one change"))))
+(defun refusal-parts (rule plan)
+  "Return what RULE, which ended PLAN, went by: derivations of what the box gives, and the names of
+faces that are constrained."
+  (let* ((leaves (stop-leaves rule plan))
+         (others (remove-if #'constrained-p leaves :key #'derivation-predicate)))
+    (values others
+            (sort (loop for leaf in leaves
+                        unless (member leaf others) append (leaf-faces leaf))
+                  #'string<))))
 
-(defun refusal-text (rule plan)
-  "Return the figures of the box of PLAN that RULE, which ended it, went by, and what would have to
-change, in words; NIL if it went by none."
-  (let* ((*units* (%box-units (plan-box plan)))
-         (leaves (stop-leaves rule plan))
-         (others (remove-if #'constrained-p leaves :key #'derivation-predicate))
-         (faces (sort (loop for leaf in (set-difference leaves others) append (leaf-faces leaf))
-                      #'string<))
-         (told (subseq others 0 (min +most-leaves+ (length others)))))
-    (and leaves
-         (words (joined "; " (append (mapcar #'leaf-text told)
-                                     (and (nthcdr +most-leaves+ others)
-                                          (list (plain-text "~d more of the kind"
-                                                            (- (length others) +most-leaves+))))
-                                     (and faces (list (blocked-text faces)))))
-                (remedies-text told faces rule plan (nthcdr +most-leaves+ others))))))
+(defun refusal-figures (rule plan)
+  "Return the figures of the box of PLAN that RULE, which ended it, went by, in words; NIL if it
+went by none."
+  (let ((*units* (%box-units (plan-box plan))))
+    (multiple-value-bind (leaves faces) (refusal-parts rule plan)
+      (and (or leaves faces)
+           (joined "; " (append (loop for leaf in leaves repeat +most-leaves+
+                                      collect (leaf-text leaf))
+                                (and (nthcdr +most-leaves+ leaves)
+                                     (list (plain-text "~d more of the kind"
+                                                       (- (length leaves) +most-leaves+))))
+                                (and faces (list (blocked-text faces)))))))))
+
+(defun refusal-remedies (rule plan)
+  "Return the single changes with which RULE, which ended PLAN, lets the box pass, each in words.
+The second value is true if there may be others."
+  (let ((*units* (%box-units (plan-box plan))))
+    (multiple-value-bind (leaves faces) (refusal-parts rule plan)
+      (let ((open (nthcdr +most-leaves+ leaves)) (remedies '()))
+        (loop for leaf in leaves repeat +most-leaves+
+              do (multiple-value-bind (remedy unknown) (leaf-remedy leaf rule plan)
+                   (when remedy (push remedy remedies))
+                   (when unknown (setf open t))))
+        (let ((free (and faces (face-remedy faces rule plan))))
+          (when free (push free remedies)))
+        (values (nreverse remedies) (or open (and (null leaves) (null faces))))))))
+
+(defun remedy-sentence (plan)
+  "Return in a sentence which single change lets the box of PLAN pass the rule that refused it; NIL
+if no rule did, or that is not known."
+  (let ((stop (plan-stop plan)))
+    (when (and stop (eq (stop-verdict stop) :cant))
+      (multiple-value-bind (remedies open) (refusal-remedies (stop-rule stop) plan)
+        (cond (remedies (plain-text "To pass that rule it takes ~{~a~^, or ~}" remedies))
+              (open nil)
+              (t "To pass that rule it takes more than one change"))))))
 
 ;;; The reason
 
@@ -190,7 +206,7 @@ that it went by, or the nearest miss.  NIL if it can."
     (cond ((plan-best plan) nil)
           ((unfinished-p plan) "THE RUN IS NOT OVER")
           (said (plainly
-                  (let ((figures (refusal-text (stop-rule stop) plan)))
+                  (let ((figures (refusal-figures (stop-rule stop) plan)))
                     (if figures (words (stop-text stop) ": " figures) (stop-text stop)))))
           (miss (plain-text "NO GRASP IS POSSIBLE, NEAREST MISS: ~a (~{~a~^ ~}): ~a"
                             (candidate-grasp miss) (candidate-matching miss)
