@@ -70,6 +70,26 @@
                               (eql number
                                    (getf (lisp-record (lisp-line (list :x number))) :x)))))))))
 
+(test digits-that-are-kept-are-those-of-their-own-number
+  "More numbers than are kept, each twice in one record."
+  (let* ((state (sb-ext:seed-random-state 8))
+         (numbers (loop repeat 1000 collect (random-between 1d-3 1d3 state)))
+         (record (list :x (append numbers (reverse numbers)))))
+    (is (equal record (json-record (json-line record))))
+    (is (equal record (lisp-record (lisp-line record))))))
+
+(test text-of-any-kind-and-length-goes-through-the-buffer
+  (let ((plain (make-string 150000 :initial-element #\a)))
+    (dolist (text (list plain (coerce plain 'simple-base-string)
+                        (make-string 50000 :initial-element (code-char #x20ac))
+                        (let ((text (copy-seq plain)))
+                          (loop for place from 65530 below 65540
+                                do (setf (char text place) (code-char #x1f600)))
+                          text)
+                        (make-array 7 :element-type 'character :displaced-to plain)))
+      (is (string= text (written text (lambda (text output)
+                                        (supergrip::put-text output text))))))))
+
 (test any-name-is-one-line-in-both-notations
   (dolist (name (list "" "a\"b\\c" (format nil "a~%b~cc~cd" #\Return (code-char 0)) "café"
                       (string (code-char #x1f600))))

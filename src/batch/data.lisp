@@ -12,27 +12,43 @@
   "True if CODE, above 31, is that of a character that a terminal obeys or that ends a line."
   (and (> code 126) (or (< code 160) (= code #x2028) (= code #x2029))))
 
+(defun plain-string-p (text)
+  "True if all of TEXT, a string, can stand between double quotes as it is, in Lisp and in JSON."
+  (flet ((plain-p (text)
+           (loop for character across text
+                 always (and (char<= #\Space character #\~)
+                             (char/= character #\") (char/= character #\\)))))
+    (declare (inline plain-p))
+    (etypecase text
+      ((simple-array character (*)) (plain-p text))
+      (simple-base-string (plain-p text))
+      (string (plain-p text)))))
+
 (defun put-lisp-string (text output)
   "Put TEXT between double quotes.  Lisp has no escapes for control characters, and a record is one
 line: they become their pictures, as U+240A for a newline, or their names, as <U+0085>."
   (put-octet output 34)
-  (loop for character across (the string text)
-        for code = (char-code character)
-        do (cond ((< code 32) (put-code output (+ #x2400 code)))
-                 ((= code 127) (put-code output #x2421))
-                 ((< 127 code 160) (put-text output (format nil "<~a>" (code-text character))))
-                 (t (when (or (= code 34) (= code 92)) (put-octet output 92))
-                    (put-character output character))))
+  (if (plain-string-p text)
+      (put-text output text)
+      (loop for character across (the string text)
+            for code = (char-code character)
+            do (cond ((< code 32) (put-code output (+ #x2400 code)))
+                     ((= code 127) (put-code output #x2421))
+                     ((< 127 code 160) (put-text output (format nil "<~a>" (code-text character))))
+                     (t (when (or (= code 34) (= code 92)) (put-octet output 92))
+                        (put-character output character)))))
   (put-octet output 34))
 
 (defun put-json-string (text output)
   (put-octet output 34)
-  (loop for character across (the string text)
-        for code = (char-code character)
-        do (cond ((or (< code 32) (control-code-p code))
-                  (put-text output (format nil "\\u~4,'0x" code)))
-                 (t (when (or (= code 34) (= code 92)) (put-octet output 92))
-                    (put-character output character))))
+  (if (plain-string-p text)
+      (put-text output text)
+      (loop for character across (the string text)
+            for code = (char-code character)
+            do (cond ((or (< code 32) (control-code-p code))
+                      (put-text output (format nil "\\u~4,'0x" code)))
+                     (t (when (or (= code 34) (= code 92)) (put-octet output 92))
+                        (put-character output character)))))
   (put-octet output 34))
 
 ;;; Data, as Lisp.  What JSON has and lists have not begins with a keyword.

@@ -32,6 +32,7 @@ one has ended it."
 
 ;;; Octets to characters
 
+(declaim (inline sequence-length))
 (defun sequence-length (octet)
   "Return how many octets the UTF-8 sequence that begins with OCTET has; 0 if none begins so."
   (declare (type (unsigned-byte 8) octet))

@@ -137,6 +137,11 @@ WHAT names it for the reports."
 
 ;;; Strings
 
+(declaim (inline plain-character-p))
+(defun plain-character-p (character)
+  "True if CHARACTER stands for itself in a string."
+  (and (char>= character #\Space) (char/= character #\") (char/= character #\\)))
+
 (defun read-json-string (source)
   (let ((line (source-line source))
         (column (source-column source))
@@ -145,18 +150,18 @@ WHAT names it for the reports."
     (next source)
     (setf (source-inside source) :string)
     (loop
+      (setf count (take-while #'plain-character-p source count))
       (let ((character (peek source)))
         (cond ((null character) (fail-at source line column "this string is never closed"))
               ((char< character #\Space)
                (fail source "in a string, ~a must be written as \\u~4,'0x"
                      (code-text character) (char-code character))))
         (next source)
-        (case character
-          (#\" (setf (source-inside source) nil)
-           (let ((text (subseq (source-token source) 0 count)))
-             (return (if (find-if #'surrogatep text) (join-surrogates text) text))))
-          (#\\ (setf character (read-escape source))))
-        (setf count (push-token source character count))))))
+        (when (char= character #\")
+          (setf (source-inside source) nil)
+          (let ((text (subseq (source-token source) 0 count)))
+            (return (if (find-if #'surrogatep text) (join-surrogates text) text))))
+        (setf count (push-token source (read-escape source) count))))))
 
 (defun read-escape (source)
   "Return the character that the escape sequence after a \\ stands for."
@@ -217,14 +222,10 @@ A surrogate alone, which is no character, becomes U+FFFD, as bytes that are not 
 
 (defun read-json-token (source)
   "Read a number, true, false or null."
-  (let ((line (source-line source))
-        (column (source-column source))
-        (count 0))
+  (let* ((line (source-line source))
+         (column (source-column source))
+         (count (take-while #'json-token-character-p source 0)))
     (declare (fixnum count))
-    (loop for character = (peek source)
-          while (and character (json-token-character-p character))
-          do (setf count (push-token source character count))
-             (next source))
     (when (zerop count)
       (fail source "~a is not allowed here" (character-description (peek source))))
     (let ((token (source-token source)))

@@ -2,11 +2,17 @@
 
 (in-package :supergrip)
 
+(defstruct (decimal (:constructor make-decimal (number digits exponent)) (:conc-name %decimal-))
+  "A NUMBER with what SHORTEST-DIGITS returns of it."
+  (number 0d0 :type double-float :read-only t)
+  (digits "" :type simple-string :read-only t) (exponent 0 :type fixnum :read-only t))
+
 (defstruct (output (:constructor make-output (descriptor)))
-  "Where records go.  END octets of BUFFER are not written yet."
+  "Where records go.  END octets of BUFFER are not written yet.  DECIMALS: see DIGITS-OF."
   (descriptor 1 :type fixnum)
   (buffer (make-array 65536 :element-type '(unsigned-byte 8)) :type octets)
-  (end 0 :type fixnum))
+  (end 0 :type fixnum)
+  (decimals (make-array 251 :initial-element nil) :type (simple-vector 251)))
 
 (defun flush-output (output)
   "Write what is in the buffer of OUTPUT.  Signals a SYSTEM-FAILURE."
@@ -46,12 +52,32 @@
         (put-octet output code)
         (put-code output code))))
 
+(declaim (inline put-ascii))
+(defun put-ascii (output text)
+  "Put the characters of TEXT that are ASCII, up to the first other one, as far as there is room,
+and return where they end."
+  (declare (type output output))
+  (let* ((buffer (output-buffer output))
+         (start (output-end output))
+         (room (- (length buffer) start))
+         (end (loop for place of-type fixnum below (min room (length text))
+                    for code = (char-code (char text place))
+                    while (< code 128)
+                    do (setf (aref buffer (+ start place)) code)
+                    finally (return place))))
+    (setf (output-end output) (+ start end))
+    end))
+
 (defun put-text (output text)
   "Put TEXT, a string, as it is."
-  (etypecase text
-    ((simple-array character (*)) (loop for c across text do (put-character output c)))
-    (simple-base-string (loop for c across text do (put-character output c)))
-    (string (loop for c across text do (put-character output c)))))
+  (flet ((put (text)
+           (loop for place of-type fixnum from (put-ascii output text) below (length text)
+                 do (put-character output (char text place)))))
+    (declare (inline put))
+    (etypecase text
+      ((simple-array character (*)) (put text))
+      (simple-base-string (put text))
+      (string (put text)))))
 
 (defun put-visible (output text)
   "Put TEXT, a string of one line or several, for people: what a terminal would obey goes by its
@@ -72,32 +98,38 @@ name."
 
 (defun put-fixnum (output number)
   (declare (type (unsigned-byte 62) number))
-  (let ((power 1))
-    (declare (type (unsigned-byte 62) power))
-    (loop while (>= (truncate number power) 10)
-          do (setf power (* power 10)))
-    (loop
-      (multiple-value-bind (digit rest) (truncate number power)
-        (put-octet output (+ 48 digit))
-        (when (= power 1) (return))
-        (setf number rest
-              power (truncate power 10))))))
+  (multiple-value-bind (tens digit) (truncate number 10)
+    (when (plusp tens) (put-fixnum output tens))
+    (put-octet output (+ 48 digit))))
 
 (defun put-double (output number &optional lisp)
   "Put the shortest decimal that reads back as NUMBER, a double: 0.86, 12.0, 1.5e-7.
 If LISP is true, mark it as a double: 0.86d0, 1.5d-7."
   (declare (double-float number))
-  (when (minusp number)
-    (put-octet output 45)
-    (setf number (- number)))
-  (if (and (< number 1d15) (= number (ffloor number)))
-      (progn (put-fixnum output (truncate number))
-             (put-text output (if lisp ".0d0" ".0")))
+  (when (minusp number) (put-octet output 45))
+  (let ((size (abs number)))
+    (multiple-value-bind (whole part) (if (< size 1d15) (truncate size) (values 0 size))
+      (if (zerop part)
+          (progn (put-fixnum output whole)
+                 (put-text output (if lisp ".0d0" ".0")))
+          (multiple-value-bind (digits exponent) (digits-of output size)
+            (cond ((< -6 exponent 22)
+                   (put-plain output digits exponent)
+                   (when lisp (put-text output "d0")))
+                  (t (put-scientific output digits exponent (if lisp #\d #\e)))))))))
+
+(defun digits-of (output number)
+  "Return what SHORTEST-DIGITS does of NUMBER.  A record has many numbers more than once, and some
+are in all records: those that were put into OUTPUT last are kept."
+  (declare (double-float number))
+  (let* ((table (output-decimals output))
+         (place (mod (double-bits number) (length table)))
+         (known (svref table place)))
+    (unless (and known (= number (%decimal-number known)))
       (multiple-value-bind (digits exponent) (shortest-digits number)
-        (cond ((< -6 exponent 22)
-               (put-plain output digits exponent)
-               (when lisp (put-text output "d0")))
-              (t (put-scientific output digits exponent (if lisp #\d #\e)))))))
+        (setf known (make-decimal number digits exponent)
+              (svref table place) known)))
+    (values (%decimal-digits known) (%decimal-exponent known))))
 
 (defun put-plain (output digits exponent)
   "Put 0.DIGITS x 10^EXPONENT without an exponent."

@@ -28,20 +28,20 @@ In exact mode also, of the best grasp (see src/plan/exact.lisp):
 :DATA  if the box has DATA: these.
 
 Lengths are in cm, forces in finger forces: see RECORD-IN-UNITS."
-  (let* ((best (plan-best plan))
-         (contacts (and best (candidate-contacts best plan)))
-         (candidates (plan-candidates plan)))
-    (list* :name (box-name (plan-box plan))
-           :line line
-           :status (if best "grasp" "cant")
-           (append (grasp-part best contacts)
-                   (list :tried (length candidates)
-                         :possible (count :possible candidates :key #'%candidate-outcome)
-                         :reason (plan-reason plan))
-                   (further-part best contacts plan)
-                   (and all (list :alternatives (alternatives plan all)))
-                   (and refine (list :refined (refined-part plan)))
-                   (carried-part (getf (%box-others (plan-box plan)) :data))))))
+  (let ((best (plan-best plan))
+        (candidates (plan-candidates plan)))
+    (multiple-value-bind (contacts sure) (and best (contacts-and-sure best plan))
+      (list* :name (box-name (plan-box plan))
+             :line line
+             :status (if best "grasp" "cant")
+             (append (grasp-part best contacts)
+                     (list :tried (length candidates)
+                           :possible (count-if #'possible-p candidates)
+                           :reason (plan-reason plan))
+                     (further-part best contacts sure plan)
+                     (and all (list :alternatives (alternatives plan all)))
+                     (and refine (list :refined (refined-part plan)))
+                     (carried-part (getf (%box-others (plan-box plan)) :data)))))))
 
 (defun carried-part (carried)
   "Return the part of a record that has CARRIED, what a box carries along; NIL for nothing."
@@ -51,8 +51,9 @@ Lengths are in cm, forces in finger forces: see RECORD-IN-UNITS."
   "Return at most MOST of the possible grasps of PLAN, the best first: of each, a plist, what a
 record tells of the best, from :GRASP to :CONTACTS and from :SURE on."
   (loop for candidate in (best-grasps plan most)
-        for contacts = (candidate-contacts candidate plan)
-        collect (append (grasp-part candidate contacts) (further-part candidate contacts plan))))
+        collect (multiple-value-bind (contacts sure) (contacts-and-sure candidate plan)
+                  (append (grasp-part candidate contacts)
+                          (further-part candidate contacts sure plan)))))
 
 (defun refined-part (plan)
   "Return what REFINE makes of PLAN, a plist, NIL without a grasp: :GRASP and :MATCHING; :QUALITY,
@@ -81,11 +82,11 @@ record, after the move."
          (loop for (key value) on hand by #'cddr
                unless (eq key :position) collect key and collect value)))
 
-(defun further-part (best contacts plan)
-  "Return the part of a record that tells more of the grasp BEST, with CONTACTS, of PLAN, or of
-none."
+(defun further-part (best contacts sure plan)
+  "Return the part of a record that tells more of the grasp BEST, with CONTACTS and the radius SURE,
+of PLAN, or of none."
   (let ((hand (and best (contacts-hand best contacts (plan-box plan)))))
-    (append (list :sure (and best (candidate-sure best plan))
+    (append (list :sure sure
                   :hand hand)
             (index-part (plan-index plan) best plan)
             (and (absolute-units-p (%box-units (plan-box plan)))

@@ -15,7 +15,8 @@
 
 (defun face-index (name)
   "Return the face that NAME, a symbol or a string, names, or NIL."
-  (position (string name) +faces+ :test #'string-equal :key #'string))
+  (or (position name +faces+)           ; as the reader returns it
+      (position (string name) +faces+ :test #'string-equal)))
 
 (defun face-name (face)
   "Return the name of FACE, a string such as \"Z2\"."

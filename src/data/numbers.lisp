@@ -50,7 +50,7 @@
                (/ (coerce mantissa 'double-float) power)
                (* (coerce mantissa 'double-float) power))))
         ;; About the decimal logarithm.
-        ((> (abs (+ exponent (* 0.30103 (integer-length mantissa)))) 310)
+        ((> (abs (+ exponent (* 0.30103 (integer-length mantissa)))) 310.0)
          (values nil :range))
         ((minusp exponent) (bounded-quotient mantissa (expt 10 (- exponent))))
         (t (bounded-quotient (* mantissa (expt 10 exponent)) 1))))

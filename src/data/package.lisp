@@ -36,5 +36,5 @@ wrong in them.")
    #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*
    ;; the tools of readers
    #:next #:fail #:fail-at #:deeper #:start-record #:end-record #:note-place #:skip-mark
-   #:push-token #:token-number #:digits-end #:character-description #:source-token #:source-depth
-   #:source-inside))
+   #:push-token #:take-while #:token-number #:digits-end #:character-description #:source-token
+   #:source-depth #:source-inside))

@@ -101,7 +101,7 @@ may have.  TRACK tells where each part of the record begins (see NOTE-PLACE)."
 
 (defun next (source)
   "Take the character that PEEK returned.  Signals a SYNTAX-ERROR if the record is too long; every
-character of a record comes through here."
+character of a record comes through here, or through TAKE-WHILE."
   (when (>= (source-position source) (source-bound source))
     (too-long source))
   (let ((character (schar (source-buffer source) (source-position source))))
@@ -359,20 +359,47 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
     (setf (schar token count) character)
     (1+ count)))
 
+(defun put-in-token (source end count)
+  "Take the characters of the buffer of SOURCE before END, put them at COUNT into its token, and
+return the new count."
+  (declare (fixnum end count))
+  (let* ((start (source-position source))
+         (new-count (+ count (- end start)))
+         (token (source-token source)))
+    (when (> new-count (length token))
+      (setf token (replace (make-string (* 2 new-count)) token)
+            (source-token source) token))
+    (replace token (source-buffer source) :start1 count :start2 start :end2 end)
+    (setf (source-position source) end)
+    new-count))
+
+(declaim (inline take-while))
+(defun take-while (wanted source count)
+  "Take the characters that come next, as long as the function WANTED is true of them, which it
+never is of the end of a line; put them at COUNT into the token of SOURCE, and return the new count.
+Signals a SYNTAX-ERROR if the record is too long."
+  (declare (function wanted) (fixnum count))
+  (loop
+    (let* ((buffer (source-buffer source))
+           (limit (min (source-end source) (source-bound source)))
+           (end (loop for place of-type fixnum from (source-position source) below limit
+                      while (funcall wanted (schar buffer place))
+                      finally (return place))))
+      (setf count (put-in-token source end count))
+      (let ((character (and (= end limit) (peek source))))
+        (unless (and character (funcall wanted character)) (return count))
+        (when (>= (source-position source) (source-bound source)) (too-long source))))))
+
 (defun read-token (source)
-  (let ((line (source-line source))
-        (column (source-column source))
-        (count 0))
+  (let* ((line (source-line source))
+         (column (source-column source))
+         (count (take-while #'name-character-p source 0))
+         (character (peek source)))
     (declare (fixnum count))
-    (loop for character = (peek source)
-          until (or (null character) (delimiterp character))
-          do (unless (name-character-p character)
-               (fail source "~a is not allowed in a name or a number~:[~;: a list whose entries ~
-                             are computed is written (LIST 0 0 0 0 (- x) x)~]"
-                     (character-description character)
-                     (and (zerop count) (find character "`,"))))
-             (setf count (push-token source character count))
-             (next source))
+    (unless (or (null character) (delimiterp character))
+      (fail source "~a is not allowed in a name or a number~:[~;: a list whose entries ~
+                    are computed is written (LIST 0 0 0 0 (- x) x)~]"
+            (character-description character) (and (zerop count) (find character "`,"))))
     (when (zerop count)
       (fail source "~a is not allowed here" (character-description (peek source))))
     (if (number-start-p (source-token source) count)

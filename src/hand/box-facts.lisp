@@ -42,8 +42,9 @@
   (let ((faces '()) (good t))
     (loop for element in list
           for k from 0
-          do (let ((face (parse-face element (value-spot row number place k))))
-               (cond ((null face) (setf good nil))
+          do (let ((face (face-named element)))
+               (cond ((null face)
+                      (setf good (refuse-face element (value-spot row number place k))))
                      ((member face faces)
                       (setf good (complain (value-spot row number place k)
                                            "~a occurs twice in one list of faces"

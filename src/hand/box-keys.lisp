@@ -79,7 +79,7 @@ BOX-KEY."
   :optional t)
 
 (defun find-key (key)
-  (find key *box-keys* :key #'box-key-key))
+  (loop for row of-type box-key in *box-keys* when (eq key (box-key-key row)) return row))
 
 (defgeneric shown-value (type value)
   (:documentation "Return VALUE of a key that takes what TYPE says, for those who read boxes.")
@@ -305,19 +305,23 @@ rest of its clause, give.  NIL after a complaint."))
              (not (and (string= "CM" (unit-name length)) (null (unit-size force))))
              (make-units length force (and (unit-size force) 1) (clause-spot))))))
 
-(defun parse-face (value spot)
-  "Return the face that VALUE at SPOT names, or NIL after a complaint."
-  (or (and (or (namep value) (stringp value)) (face-index value))
-      (complain spot "~a is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2~:[~;, without ~
-                      parentheses of their own~]"
-                (value-text *notation* value) (consp value))))
+(defun face-named (value)
+  "Return the face that VALUE names, or NIL."
+  (and (or (namep value) (stringp value)) (face-index value)))
+
+(defun refuse-face (value spot)
+  "Complain that VALUE at SPOT names no face."
+  (complain spot "~a is not a surface of a box: surfaces are X1 X2 Y1 Y2 Z1 Z2~:[~;, without ~
+                  parentheses of their own~]"
+            (value-text *notation* value) (consp value)))
 
 (defmethod parse-values ((type (eql :faces)) row values)
   (let ((set 0) (good t))
     (loop for value in values
           for number from 0
-          do (let ((face (parse-face value (value-spot row number))))
-               (cond ((null face) (setf good nil))
+          do (let ((face (face-named value)))
+               (cond ((null face)
+                      (setf good (refuse-face value (value-spot row number))))
                      ((logbitp face set)
                       (setf good (complain (value-spot row number) "~a is constrained twice"
                                            (value-text *notation* value))))

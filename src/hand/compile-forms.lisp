@@ -114,7 +114,8 @@ is in none yet."
 
 (defun done-operation (operator operands code)
   "Return the register that holds what OPERATOR gives for OPERANDS, or NIL."
-  (cdr (assoc (cons operator operands) (code-operations code) :test #'equal)))
+  (loop for ((done . from) . register) in (code-operations code)
+        when (and (eq operator done) (equal operands from)) return register))
 
 (defun write-operands (nodes code)
   "Write NODES, one or two, and return the operand of each: the register that will hold its number,

@@ -59,11 +59,10 @@ of the numbers exchanged, or they are NIL."
 
 (defun find-operator (name)
   "Return the operator that NAME, a string, names, or NIL."
-  (flet ((named-p (operator)
-           (let ((known (operator-name operator)))
-             ;; Most differ in length: STRING= is slower.
-             (and (= (length known) (length name)) (string= known name)))))
-    (find-if #'named-p *operators*)))
+  (loop for operator of-type operator in *operators*
+        for known = (operator-name operator)
+        ;; Most differ in length: STRING= is slower.
+        when (and (= (length known) (length name)) (string= known name)) return operator))
 
 (defun add-operator (operator)
   (setf *operators* (with-row operator *operators* #'operator-name)))

@@ -17,11 +17,10 @@ is, a list of numbers, each that of an element."
 
 (defun key-named (name)
   "Return the row of the key NAME, a symbol or, in JSON, a string; or NIL."
-  (dolist (row *box-keys*)
-    (when (if (stringp name)
-              (string= name (box-key-json row))
-              (or (eq name (box-key-key row)) (name= name (box-key-key row))))
-      (return row))))
+  (if (stringp name)
+      (loop for row in *box-keys* when (string= name (box-key-json row)) return row)
+      (or (find-key name)               ; as the reader returns it
+          (find name *box-keys* :key #'box-key-key :test #'name=))))
 
 (defun clause-key (clause keys)
   "Return the row of the key of CLAUSE if it is a good one that is not in KEYS yet, or complain."
@@ -62,9 +61,10 @@ is, a list of numbers, each that of an element."
 
 (defun find-rival (row keys)
   "Return the one of KEYS in whose place the key ROW stands, or that stands in its place, or NIL."
-  (find-if (lambda (other) (or (eq (box-key-key other) (box-key-instead row))
-                               (eq (box-key-key row) (box-key-instead other))))
-           keys))
+  (loop for other in keys
+        when (or (eq (box-key-key other) (box-key-instead row))
+                 (eq (box-key-key row) (box-key-instead other)))
+          return other))
 
 (defun box-values (description)
   "Return a plist of the values in DESCRIPTION, a list of clauses, complaining of what is wrong."
@@ -73,7 +73,7 @@ is, a list of numbers, each that of an element."
       (let ((row (clause-key clause keys)))
         (when row
           (push row keys)
-          (setf (getf values (box-key-key row)) (key-value row (rest clause)))))
+          (setf values (list* (box-key-key row) (key-value row (rest clause)) values))))
       (incf *clause*))
     (complain-of-missing keys)
     (complain-of-no-need values)
@@ -82,11 +82,10 @@ is, a list of numbers, each that of an element."
 
 (defun clause-number (key description)
   "Return the number of the clause of DESCRIPTION for KEY, a keyword, or NIL."
-  (let ((row (find-key key)))
-    (position-if (lambda (clause)
-                   (and (consp clause) (or (name= (first clause) key)
-                                           (equal (first clause) (box-key-json row)))))
-                 description)))
+  (loop with row = (find-key key)
+        for clause in description
+        for number from 0
+        when (and (consp clause) (eq row (key-named (first clause)))) return number))
 
 (defun described-units (description)
   "Return the units that DESCRIPTION, a list of clauses, names, or NIL.  In the place of wrong
@@ -136,10 +135,10 @@ weight.  As long as no gripper is known, a finger force is 1 N."
 (defun complain-of-missing (keys)
   "Complain if KEYS lack one that a box must have.  Where the box was read, a parenthesis too many
 may have ended it."
-  (let ((missing (remove-if (lambda (row)
-                              (or (box-key-optional row) (member row keys)
-                                  (find (box-key-key row) keys :key #'box-key-instead)))
-                            *box-keys*)))
+  (let ((missing (loop for row in *box-keys*
+                       unless (or (box-key-optional row) (member row keys)
+                                  (find (box-key-key row) keys :key #'box-key-instead))
+                         collect row)))
     (dolist (row missing)
       (complain *path* "~a is missing; it takes ~a" (key-name *notation* row) (key-takes row)))
     (when (and missing *places*)
@@ -149,12 +148,14 @@ may have ended it."
 
 (defun complain-of-no-need (values)
   "Complain if the task in VALUES needs neither forces nor velocities."
-  (let ((rows (remove :needs *box-keys* :key #'box-key-type :test-not #'eq)))
-    (when (loop for row in rows
-                for needs = (getf values (box-key-key row))
-                always (and needs (every #'zerop (the six needs))))
+  (flet ((needs-nothing-p (row)
+           (let ((needs (getf values (box-key-key row))))
+             (and needs (every #'zerop (the six needs))))))
+    (unless (loop for row in *box-keys*
+                    thereis (and (eq :needs (box-key-type row)) (not (needs-nothing-p row))))
       (complain *path* "the task needs nothing: ~{~a~^ and ~} are all 0"
-                (loop for row in rows collect (key-name *notation* row))))))
+                (loop for row in *box-keys*
+                      when (eq :needs (box-key-type row)) collect (key-name *notation* row))))))
 
 (defun parse-box (form &key file line)
   "Return the box that FORM describes: the paper's list

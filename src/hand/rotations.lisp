@@ -20,21 +20,29 @@
             (- (* az bx) (* ax bz))
             (- (* ax by) (* ay bx))))))
 
+(defun largest-size (vector)
+  "Return the greatest of the sizes of the numbers in VECTOR, a list of doubles."
+  (loop for number of-type double-float in vector maximize (abs number) of-type double-float))
+
 (defun vector-length (vector)
   "Return the length of VECTOR, a list of doubles.  No number is too large or too small for it."
-  (let ((most (reduce #'max vector :key #'abs)))
+  (let ((most (largest-size vector)) (sum 0d0))
+    (declare (type (double-float 0d0) most sum))
     (if (zerop most)
         0d0
-        (* most (sqrt (loop for number in vector sum (expt (/ number most) 2)))))))
+        (dolist (number vector (* most (sqrt sum)))
+          (incf sum (expt (/ (the double-float number) most) 2))))))
 
 (defun unit-length (vector)
   "Return VECTOR, a list of doubles, made of length 1; NIL if all of it is 0."
-  (let ((most (reduce #'max vector :key #'abs)))
-    (unless (zerop most)
-      ;; Twice, so that no length is out of range.
-      (let* ((vector (mapcar (lambda (number) (/ number most)) vector))
-             (length (vector-length vector)))
-        (mapcar (lambda (number) (/ number length)) vector)))))
+  (flet ((divided (vector divisor)
+           (declare (double-float divisor))
+           (loop for number of-type double-float in vector collect (/ number divisor))))
+    (let ((most (largest-size vector)))
+      (unless (zerop most)
+        ;; Twice, so that no length is out of range.
+        (let ((vector (divided vector most)))
+          (divided vector (vector-length vector)))))))
 
 (defun unit-quaternion-p (quaternion)
   "True if the length of QUATERNION is 1 within 1e-6."
@@ -44,7 +52,7 @@
   "Return the unit quaternion of the rotation of QUATERNION, any but 0, with W not below 0; if W is
 0, the first of X Y Z that is not 0 is above it.  What is below 1e-15 becomes 0: it is rounding, and
 would decide about the signs."
-  (destructuring-bind (x y z w) (loop for number in (unit-length quaternion)
+  (destructuring-bind (x y z w) (loop for number of-type double-float in (unit-length quaternion)
                                       collect (if (< (abs number) 1d-15) 0d0 number))
     (if (minusp (or (find 0d0 (list w x y z) :test #'/=) 0d0))
         (loop for number in (list x y z w) collect (- 0d0 number))
@@ -77,19 +85,20 @@ would decide about the signs."
   "Return the unit quaternion of MATRIX, a rotation: of the two, the one that STANDARD-QUATERNION
 returns.
 
-Each row below is 4 Q times one of the components X Y Z W of Q.  The row of the greatest component
-is taken, so that nothing small is divided by."
+Each list below is 4 Q times one of the components X Y Z W of Q.  That of the greatest component is
+taken, so that nothing small is divided by."
   (destructuring-bind ((xx yx zx) (xy yy zy) (xz yz zz)) matrix
-    (let ((rows (list (list (+ 1 xx (- yy) (- zz)) (+ yx xy) (+ zx xz) (- zy yz))
-                      (list (+ yx xy) (+ 1 yy (- xx) (- zz)) (+ zy yz) (- xz zx))
-                      (list (+ zx xz) (+ zy yz) (+ 1 zz (- xx) (- yy)) (- yx xy))
-                      (list (- zy yz) (- xz zx) (- yx xy) (+ 1 xx yy zz)))))
+    (declare (double-float xx yx zx xy yy zy xz yz zz))
+    (let* ((x (+ 1 xx (- yy) (- zz)))
+           (y (+ 1 yy (- xx) (- zz)))
+           (z (+ 1 zz (- xx) (- yy)))
+           (w (+ 1 xx yy zz))
+           (most (max x y z w)))
       (standard-quaternion
-       (loop with best = (first rows) and most = (first (first rows))
-             for row in (rest rows)
-             for place from 1
-             when (> (nth place row) most) do (setf best row most (nth place row))
-             finally (return best))))))
+       (cond ((= most x) (list x (+ yx xy) (+ zx xz) (- zy yz)))
+             ((= most y) (list (+ yx xy) y (+ zy yz) (- xz zx)))
+             ((= most z) (list (+ zx xz) (+ zy yz) z (- yx xy)))
+             (t (list (- zy yz) (- xz zx) (- yx xy) w)))))))
 
 (defun turned-vector (matrix vector)
   "Return VECTOR, a list of three in the frame that MATRIX turns, as the outer frame has it."

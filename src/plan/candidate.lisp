@@ -41,13 +41,14 @@ CANDIDATE-BOUND-P, an upper bound."
   "Return u_t of CANDIDATE, or NIL if the task needs no velocity or it is not possible."
   (and (candidate-velocity-axis candidate) (%candidate-velocity-radius candidate)))
 
+(declaim (inline without-sign-of-zero))
+(defun without-sign-of-zero (number)
+  (+ number 0d0))
+
 (defun candidate-offset (candidate)
   "Return the grasp centre of CANDIDATE from the box centre: three numbers along X Y Z, in cm."
   (mapcar #'without-sign-of-zero
           (list (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))
-
-(defun without-sign-of-zero (number)
-  (+ number 0d0))
 
 (defun unit-vector (face sign)
   "Return the outward normal of the box face FACE, times SIGN, as a list along X Y Z."
@@ -112,7 +113,7 @@ positions in cm, the normals pointing inward; and :FINGER, the finger's name in 
 
 (defun workspace-contacts (candidate workspace)
   "Return what CANDIDATE-CONTACTS does; WORKSPACE holds where the fingers of CANDIDATE are."
-  (loop with registers = (workspace-registers workspace)
+  (loop with registers of-type registers = (workspace-registers workspace)
         with matching = (%candidate-matching candidate)
         for (grasp-face p q) in (grasp-contacts (%candidate-grasp candidate))
         for finger across +finger-names+
@@ -125,6 +126,7 @@ positions in cm, the normals pointing inward; and :FINGER, the finger's name in 
 
 (defun contact-position (workspace matching grasp-face p q)
   "Return the place, along X Y Z, of a finger on GRASP-FACE at P, Q along its two other axes."
+  (declare (type workspace workspace) (type matching matching) (type face grasp-face))
   (let ((position (make-list 3))
         (rest (list p q)))
     (dotimes (i 3 position)
@@ -133,7 +135,8 @@ positions in cm, the normals pointing inward; and :FINGER, the finger's name in 
              (* (aref (matching-signs matching) i)
                 (if (= i (floor grasp-face 2))
                     (* (if (evenp grasp-face) 0.5d0 -0.5d0) (aref (workspace-lengths workspace) i))
-                    (+ (aref (workspace-centre workspace) i) (pop rest)))))))))
+                    (+ (aref (workspace-centre workspace) i)
+                       (the double-float (pop rest))))))))))
 
 (defun replayed-six (capacities candidate plan)
   "Return what CAPACITIES, a function of a workspace, gives for CANDIDATE of PLAN, a list; NIL where
@@ -167,6 +170,12 @@ force."
   (let ((box (workspace-box workspace)))
     (sure (workspace-wrench workspace) (%box-force box) (gravity-on box)
           (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))
+
+(defun contacts-and-sure (candidate plan)
+  "Return what CANDIDATE-CONTACTS and CANDIDATE-SURE do of CANDIDATE, which is possible in PLAN: it
+is taken through the steps again once for both."
+  (with-replay (workspace candidate plan)
+    (values (contacts-of candidate workspace) (sure-of candidate workspace))))
 
 (defun candidate-palm (candidate)
   "Return the name of the box face that the palm of CANDIDATE is over."
