@@ -90,11 +90,11 @@
     (is (= (supergrip:refinement-quality refinement)
            (supergrip:refinement-quality-bound refinement)
            (supergrip:candidate-velocity-radius (supergrip:refinement-candidate refinement)))))
-  (is (equal "count is 0; it is how many grasps to refine, 1 or more"
+  (is (equal "count is 0, but must be how many grasps to refine, 1 or more"
              (error-text (supergrip:refine (pencil-plan) :count 0))))
-  (is (equal "regions is MANY; it is a number of regions, such as 1000"
+  (is (equal "regions is MANY, but must be a number of regions, such as 1000"
              (error-text (supergrip:refine (pencil-plan) :regions 'many))))
-  (is (equal "gap is -1; it is a number from 0 to 1, such as 0.02"
+  (is (equal "gap is -1, but must be a number from 0 to 1, such as 0.02"
              (error-text (supergrip:refine (pencil-plan) :gap -1)))))
 
 (test a-sheet-that-is-hardly-held-is-refined-in-the-end

@@ -1,7 +1,7 @@
 ;;;; rules-and-refining.lisp -- rules, trying everything, and refining, compared on the same boxes.
 ;;;;
-;;;; sbcl --script t/study.lisp refined measures 1,000 boxes, for docs/study.md; a test measures a few, and
-;;;; looks whether the page has what comes out.
+;;;; sbcl --script t/study.lisp refined measures 1,000 boxes, for docs/study.md; a test measures a
+;;;; few, and looks whether the page has what comes out.
 
 (in-package :supergrip-test)
 (define-suite rules-and-refining "What the page on rules, trying everything and refining says.")
@@ -13,8 +13,9 @@
           collect (supergrip:parse-box (if (evenp number) (table-box state) (household-box state))))))
 
 (defun exact-quality (plan)
-  "Return the quality of the best grasp of PLAN by its certified exact radius, 0 for the radius where the
-contacts do not hold the weight; NIL without a grasp.  The second value is true if they hold it."
+  "Return the quality of the best grasp of PLAN by its certified exact radius, 0 for the radius
+where the contacts do not hold the weight; NIL without a grasp.  The second value is true if they
+hold it."
   (let ((best (supergrip:plan-best plan)))
     (when best
       (multiple-value-bind (upper lower) (supergrip:candidate-exact-radius best plan)
@@ -24,7 +25,8 @@ contacts do not hold the weight; NIL without a grasp.  The second value is true 
                 (or (null upper) (>= upper 0)))))))
 
 (defun timed (function boxes)
-  "Return what FUNCTION makes of each of BOXES, a list, and how many ms of processor time a box took."
+  "Return what FUNCTION makes of each of BOXES, a list, and how many ms of processor time a box
+took."
   (let* ((start (get-internal-run-time))
          (results (mapcar function boxes)))
     (values results (/ (- (get-internal-run-time) start) 1000d0 (length boxes)))))
@@ -34,8 +36,8 @@ contacts do not hold the weight; NIL without a grasp.  The second value is true 
     (nth (floor (* share (1- (length sorted)))) sorted)))
 
 (defstruct way
-  "A way to choose grasps.  NAME in the table; for each box: TRIED, how many candidates, and QUALITY, exact, or
-NIL; HELD, how many weights are held; TIME, ms a box."
+  "A way to choose grasps.  NAME in the table; for each box: TRIED, how many candidates, and
+QUALITY, exact, or NIL; HELD, how many weights are held; TIME, ms a box."
   name tried quality held time)
 
 (defun way-of-plans (name boxes knowledge index)
@@ -75,8 +77,8 @@ NIL; HELD, how many weights are held; TIME, ms a box."
                 refinements)))))
 
 (defun way-parts (ways)
-  "Return for each of WAYS its qualities as parts of those of the fourth, the best unrefined ones, for the
-boxes where all ways have a grasp."
+  "Return for each of WAYS its qualities as parts of those of the fourth, the best unrefined ones,
+for the boxes where all ways have a grasp."
   (let ((rows (remove-if-not (lambda (row) (and (notany #'null row) (plusp (fourth row))))
                              (apply #'mapcar #'list (mapcar #'way-quality ways)))))
     (loop for k below (length ways)
@@ -139,9 +141,9 @@ boxes where all ways have a grasp."
 ;;; Refined grasps and a grid of placements
 
 (defun grid-placements (freedom around)
-  "Return the legal placements of FREEDOM on the finest grid that has at most 5,000.  Where fingers must
-stay close together on a large face, a grid of the face may have none; then it covers a part of it, near
-the placement AROUND."
+  "Return the legal placements of FREEDOM on the finest grid that has at most 5,000.  Where fingers
+must stay close together on a large face, a grid of the face may have none; then it covers a part of
+it, near the placement AROUND."
   (let ((supergrip::+most-scanned+ 5000))
     (loop for part in '(1 1/4 1/16)
           thereis (loop with near = (supergrip::freedom-near freedom around part)
@@ -153,9 +155,9 @@ the placement AROUND."
                         finally (return finest)))))
 
 (defun grid-ratio (refinement)
-  "Return by how much the best placement on a grid of up to 5,000 legal ones is better than REFINEMENT: the
-ratio of the radii, certified; and how many placements the grid has.  The cuts that were found may rule
-placements out: no placement is better than its cuts say."
+  "Return by how much the best placement on a grid of up to 5,000 legal ones is better than
+REFINEMENT: the ratio of the radii, certified; and how many placements the grid has.  The cuts that
+were found may rule placements out: no placement is better than its cuts say."
   (let* ((candidate (supergrip:refinement-candidate refinement))
          (plan (supergrip:refinement-plan refinement))
          (base (supergrip::knowledge-graspbase (supergrip:plan-knowledge plan)))
@@ -172,8 +174,8 @@ placements out: no placement is better than its cuts say."
           (values (/ best ours) (length grid)))))))
 
 (defun print-grid (count seed)
-  "Print how the best placement on a grid compares with COUNT refined grasps, of four kinds of boxes, made
-from SEED."
+  "Print how the best placement on a grid compares with COUNT refined grasps, of four kinds of
+boxes, made from SEED."
   (let ((ratios '()) (sizes '()) (times '()) (state (sb-ext:seed-random-state seed)))
     (loop for number from 0
           until (= (length ratios) count)

@@ -7,10 +7,10 @@
 ;;;; sbcl --script t/study.lisp sure                        how tight the sure radius is
 ;;;; sbcl --script t/study.lisp choice                      exact choices, candidate by candidate
 ;;;; sbcl --script t/study.lisp lifting                     what sound lifting loses
-;;;; sbcl --script t/study.lisp lying                       what changes when the frame of a box is turned
+;;;; sbcl --script t/study.lisp lying                       what changes if a box's frame is turned
 ;;;; sbcl --script t/study.lisp index                       u_w beside the exact radius
 ;;;; sbcl --script t/study.lisp refined [COUNT]             rules, trying everything, and refining
-;;;; sbcl --script t/study.lisp grid [COUNT [SEED]]         refined grasps against all places of a grid
+;;;; sbcl --script t/study.lisp grid [COUNT [SEED]]         refined grasps against a grid of places
 ;;;; sbcl --script t/study.lisp legal [COUNT]               refined grasps: legal, and no worse
 ;;;; sbcl --script t/study.lisp radii | python3 t/radii.py  exact radii by other means
 
@@ -209,8 +209,8 @@ face, and the same palm."
 ;;; The textbook's chainer
 
 (defun restarting (rules facts try)
-  "Run RULES as SUPERGRIP-ORACLE:ORACLE-RUN-RULES does, but from the top after each that remembers or
-tries something new: again with all rules up to it, until there is none."
+  "Run RULES as SUPERGRIP-ORACLE:ORACLE-RUN-RULES does, but from the top after each that remembers
+or tries something new: again with all rules up to it, until there is none."
   (let ((known facts) (log '()) (tried '()))
     (loop
       (let ((new nil) (result nil))
@@ -274,7 +274,8 @@ first."
           #'> :key #'third)))
 
 (defun print-changes (what old new boxes)
-  "Print what differs for BOXES between the knowledge OLD and NEW, WHAT they are; return the differences."
+  "Print what differs for BOXES between the knowledge OLD and NEW, WHAT they are; return the
+differences."
   (let ((differences (supergrip:compare-knowledge old new boxes :stream nil)))
     (flet ((of (kind) (count kind differences :key #'supergrip:difference-what)))
       (format t "~a: of ~d boxes ~d differ in verdict, ~d in grasp, ~d in quality alone~%~:{  ~a, now ~

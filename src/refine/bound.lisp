@@ -1,25 +1,26 @@
 ;;;; bound.lisp -- how good a placement can be at most: branch and bound over all legal ones.
 ;;;;
-;;;; A region holds all placements between two.  The power of a finger in a motion is a convex function
-;;;; of its place, so it is greatest at a corner of the finger's rectangle; the fingers' greatest powers
-;;;; together bound the cut in the region.  A mixture of cuts, in which the size of the task is at
-;;;; most 1 too, bounds it as well, and mostly better: what is good for one motion is bad for another.
-;;;; The region with the greatest bound is cut in two, until none is left that may hold a placement
-;;;; much better than the best known.  The middle of each gives a new cut, or a better placement.
+;;;; A region holds all placements between two.  The power of a finger in a motion is a convex
+;;;; function of its place, so it is greatest at a corner of the finger's rectangle; the fingers'
+;;;; greatest powers together bound the cut in the region.  A mixture of cuts, in which the size of
+;;;; the task is at most 1 too, bounds it as well, and mostly better: what is good for one motion is
+;;;; bad for another.  The region with the greatest bound is cut in two, until none is left that may
+;;;; hold a placement much better than the best known.  The middle of each gives a new cut, or a
+;;;; better placement.
 
 (in-package :supergrip)
 
 (defconstant +mixings+ 15 "How often the mixture of a region is improved.")
 
 (defstruct (region (:copier nil) (:conc-name g-))
-  "The placements from LOW to HIGH.  None has a radius above BOUND; WEIGHTS, of the cuts there were then,
-the latest first, are those of a mixture that shows it, or NIL."
+  "The placements from LOW to HIGH.  None has a radius above BOUND; WEIGHTS, of the cuts there were
+then, the latest first, are those of a mixture that shows it, or NIL."
   (low nil :type doubles) (high nil :type doubles)
   (bound 1d300 :type double-float) (weights nil :type (or null doubles)))
 
 (defun put-corners (refining cut region powers start)
-  "Put the powers in CUT of each finger at the four corners of its rectangle in REGION into POWERS from
-START, then that of gravity."
+  "Put the powers in CUT of each finger at the four corners of its rectangle in REGION into POWERS
+from START, then that of gravity."
   (declare (type refining refining) (type motion-cut cut) (type doubles powers) (fixnum start)
            (optimize speed))
   (let ((low (g-low region)) (high (g-high region)))
@@ -41,8 +42,8 @@ START, then that of gravity."
     (setf (aref powers (+ start (* 4 (r-count refining)))) (aref cut 6))))
 
 (defun line-bound (powers start count tops)
-  "Return the greatest sum of the line of POWERS from START, for COUNT fingers; put the corners that it
-takes, one a finger, into TOPS."
+  "Return the greatest sum of the line of POWERS from START, for COUNT fingers; put the corners that
+it takes, one a finger, into TOPS."
   (declare (type doubles powers) (fixnum start count) (type (simple-array fixnum (*)) tops)
            (optimize speed))
   (let ((sum (aref powers (+ start (* 4 count)))))
@@ -73,8 +74,8 @@ MIXTURE."
           (incf (aref mixture k) (* weight (aref powers (+ start k)))))))))
 
 (defun shift-weights (powers lines width weights tops count bound pace)
-  "Give the lines of POWERS that are below BOUND where the mixture of WEIGHTS is greatest, at TOPS, more
-weight, the others less."
+  "Give the lines of POWERS that are below BOUND where the mixture of WEIGHTS is greatest, at TOPS,
+more weight, the others less."
   (declare (type doubles powers weights) (fixnum lines width count)
            (type (simple-array fixnum (*)) tops) (double-float bound pace) (optimize speed))
   (dotimes (j lines)
@@ -87,8 +88,8 @@ weight, the others less."
                          (exp (max -3d0 (min 3d0 (* pace (- 1d0 (/ value bound))))))))))))
 
 (defun first-weights (lines before best)
-  "Return weights for LINES cuts: those of BEFORE, for the older ones, or else the one of the cut BEST,
-and a little for all."
+  "Return weights for LINES cuts: those of BEFORE, for the older ones, or else the one of the cut
+BEST, and a little for all."
   (let ((weights (make-array lines :element-type 'double-float :initial-element (/ 0.3d0 lines))))
     (if before
         (loop for weight across before
@@ -131,13 +132,16 @@ Return the bound."
   (let ((most (* (limit-between-most limit) (+ 1d0 1d-9))) (gaps 0d0) (spans 0d0))
     (dotimes (axis 3)
       (unless (eql axis (limit-between-skip limit))
-        (let ((p (+ axis (* 3 (limit-between-one limit)))) (q (+ axis (* 3 (limit-between-two limit)))))
+        (let ((p (+ axis (* 3 (limit-between-one limit))))
+              (q (+ axis (* 3 (limit-between-two limit)))))
           (setf (aref low p) (max (aref low p) (- (aref low q) most))
                 (aref low q) (max (aref low q) (- (aref low p) most))
                 (aref high p) (min (aref high p) (+ (aref high q) most))
                 (aref high q) (min (aref high q) (+ (aref high p) most)))
-          (incf gaps (expt (max 0d0 (- (aref low p) (aref high q)) (- (aref low q) (aref high p))) 2))
-          (incf spans (expt (max (- (aref high p) (aref low q)) (- (aref high q) (aref low p))) 2)))))
+          (incf gaps (expt (max 0d0 (- (aref low p) (aref high q)) (- (aref low q) (aref high p)))
+                           2))
+          (incf spans (expt (max (- (aref high p) (aref low q)) (- (aref high q) (aref low p)))
+                            2)))))
     (and (<= gaps (* most most))
          (>= spans (* (- 1d0 1d-9) (expt (limit-between-least limit) 2)))
          (every (lambda (low high) (<= low (+ high (* 1d-9 (+ 1d0 (abs high)))))) low high))))
@@ -160,9 +164,10 @@ Return the bound."
             collect part)))
 
 (defun try-middle (refining region placement value goal)
-  "Return a better placement than PLACEMENT, with the radius VALUE, found from the middle of REGION, and its
-radius; or those two.  GOAL is the radius that is worth asking for."
-  (let* ((middle (map 'doubles (lambda (low high) (/ (+ low high) 2)) (g-low region) (g-high region)))
+  "Return a better placement than PLACEMENT, with the radius VALUE, found from the middle of REGION,
+and its radius; or those two.  GOAL is the radius that is worth asking for."
+  (let* ((middle (map 'doubles (lambda (low high) (/ (+ low high) 2))
+                      (g-low region) (g-high region)))
          (middle (make-legal middle (r-freedom refining))))
     (when (and middle (may-ask-p refining) (> (cuts-radius refining middle) goal))
       (let ((radius (radius-at refining middle value)))
@@ -172,8 +177,9 @@ radius; or those two.  GOAL is the radius that is worth asking for."
     (values placement value)))
 
 (defun branch-and-bound (refining placement value gap most-regions)
-  "Return the best placement known, at first PLACEMENT, with the radius VALUE; its radius; and a radius that
-no legal placement exceeds, at most GAP above it unless MOST-REGIONS are not enough for that."
+  "Return the best placement known, at first PLACEMENT, with the radius VALUE; its radius; and a
+radius that no legal placement exceeds, at most GAP above it unless MOST-REGIONS are not enough for
+that."
   (let* ((freedom (r-freedom refining)) (dropped value) (seen 1)
          (root (make-tight-region (copy-seq (freedom-low freedom)) (copy-seq (freedom-high freedom))
                                   nil freedom))

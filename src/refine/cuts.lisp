@@ -1,9 +1,9 @@
 ;;;; cuts.lisp -- what a motion says of all placements: at most so much can the fingers do in it.
 ;;;;
-;;;; The exact radius of a placement is the least, over all motions, of the power that the fingers can
-;;;; do in it, the size of the task in it being 1.  So one motion, such as the worst one of another
-;;;; placement, bounds the radius of every placement: it is a cut.  What it costs to ask a cut is next
-;;;; to nothing.
+;;;; The exact radius of a placement is the least, over all motions, of the power that the fingers
+;;;; can do in it, the size of the task in it being 1.  So one motion, such as the worst one of
+;;;; another placement, bounds the radius of every placement: it is a cut.  What it costs to ask a
+;;;; cut is next to nothing.
 
 (in-package :supergrip)
 
@@ -11,11 +11,11 @@
 (deftype friction-number () '(double-float 0d0))
 
 (defstruct (refining (:copier nil) (:conc-name r-))
-  "The search for a better placement of the fingers of FREEDOM.  NORMALS has the axis that each is normal
-to, SIGNS where along it the inward normal points; U and V are the coefficients of friction.  NEED is
-the task, GRAVITY the wrench of the weight, GRIP the fingers at the placement asked last, ASKED how many
-powers were computed for that so far, CUTS a list of cuts: a motion, in which the size of the task is 1,
-and gravity's power."
+  "The search for a better placement of the fingers of FREEDOM.  NORMALS has the axis that each is
+normal to, SIGNS where along it the inward normal points; U and V are the coefficients of friction.
+NEED is the task, GRAVITY the wrench of the weight, GRIP the fingers at the placement asked last,
+ASKED how many powers were computed for that so far, CUTS a list of cuts: a motion, in which the
+size of the task is 1, and gravity's power."
   (freedom nil :type freedom) (count 0 :type fixnum)
   (normals nil :type simple-vector) (signs nil :type doubles)
   (u 0d0 :type friction-number) (v 0d0 :type friction-number)
@@ -57,7 +57,8 @@ and gravity's power."
         (t (power gz gx gy wz))))))
 
 (defun cut-power (refining cut placement)
-  "Return the power that the fingers of REFINING can do in the motion of CUT if they stand at PLACEMENT."
+  "Return the power that the fingers of REFINING can do in the motion of CUT if they stand at
+PLACEMENT."
   (declare (type refining refining) (type motion-cut cut) (type doubles placement) (optimize speed))
   (let ((power (aref cut 6)))
     (declare (double-float power))
@@ -100,8 +101,8 @@ GRIP-RADIUS does; the worst motion becomes a cut."
   (< (r-asked refining) +most-powers+))
 
 (defun radius-at (refining placement least)
-  "Return the exact radius of REFINING at PLACEMENT, an upper value, mostly within 1 %; or, if it is not
-above LEAST, no more than a number between the two."
+  "Return the exact radius of REFINING at PLACEMENT, an upper value, mostly within 1 %; or, if it is
+not above LEAST, no more than a number between the two."
   (flet ((look (budget)
            (ask refining placement 0.01d0 1d-3 budget)
            (cuts-radius refining placement)))

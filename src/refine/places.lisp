@@ -1,11 +1,12 @@
 ;;;; places.lisp -- where the fingers of a candidate may stand: its legal places.
 ;;;;
-;;;; A placement is three numbers a finger, its place along X Y Z from the box centre, in cm.  Legal is
-;;;; one that keeps every finger on its face, half a FINGER-WIDTH from the edges; no deeper under the
-;;;; palm than OFFSET says that the hand reaches; within the hand's room between two constrained
+;;;; A placement is three numbers a finger, its place along X Y Z from the box centre, in cm.  Legal
+;;;; is one that keeps every finger on its face, half a FINGER-WIDTH from the edges; no deeper under
+;;;; the palm than OFFSET says that the hand reaches; within the hand's room between two constrained
 ;;;; faces; fingers on one face between FINGER-WIDTH and FINGER-SPREAD apart; opposed fingers within
-;;;; half a FINGER-SPREAD of each other; fingers on adjacent faces within DIST-PINCH.  Where CONTACTS
-;;;; and OFFSET ask more of the hand than these limits, the hand can do as much as they ask.
+;;;; half a FINGER-SPREAD of each other; fingers on adjacent faces within DIST-PINCH.  Where
+;;;; CONTACTS and OFFSET ask more of the hand than these limits, the hand can do as much as they
+;;;; ask.
 
 (in-package :supergrip)
 
@@ -17,8 +18,8 @@
   (most 0d0 :type double-float))
 
 (defstruct (freedom (:copier nil))
-  "Where COUNT fingers may stand.  FACES are the box faces that they are on; HOME is the placement of the
-plan, LOW and HIGH its limits, BETWEEN a list of LIMIT-BETWEENs."
+  "Where COUNT fingers may stand.  FACES are the box faces that they are on; HOME is the placement
+of the plan, LOW and HIGH its limits, BETWEEN a list of LIMIT-BETWEENs."
   (count 0 :type fixnum) (faces '() :type list)
   (home nil :type doubles) (low nil :type doubles) (high nil :type doubles)
   (between '() :type list))
@@ -53,9 +54,9 @@ plan, LOW and HIGH its limits, BETWEEN a list of LIMIT-BETWEENs."
 ;;; The limits
 
 (defun reach-along (axis candidate workspace)
-  "Return how far the hand reaches along the grasp's AXIS, 0 to 2, from the face that it comes over, in
-cm, and the side of that face, 1 or -1; NIL if it reaches through the whole box.
-OFFSET says so of a box that is twice as long: its middle lies as deep as the far face of this one."
+  "Return how far the hand reaches along the grasp's AXIS, 0 to 2, from the face that it comes over,
+in cm, and the side of that face, 1 or -1; NIL if it reaches through the whole box.  OFFSET says so
+of a box that is twice as long: its middle lies as deep as the far face of this one."
   (let* ((registers (workspace-registers workspace))
          (program (grasp-offset (%candidate-grasp candidate)))
          (length (aref (workspace-lengths workspace) axis))
@@ -69,7 +70,8 @@ OFFSET says so of a box that is twice as long: its middle lies as deep as the fa
             ((not (zerop shift)) (values (- length (abs shift)) (signum shift)))))))
 
 (defun limit-coordinate (freedom axis low high)
-  "Let no finger of FREEDOM be below LOW or above HIGH along AXIS, 0 to 2, unless it is at home there."
+  "Let no finger of FREEDOM be below LOW or above HIGH along AXIS, 0 to 2, unless it is at home
+there."
   (loop for place from axis below (* 3 (freedom-count freedom)) by 3
         for home = (aref (freedom-home freedom) place)
         do (setf (aref (freedom-low freedom) place)
@@ -105,11 +107,12 @@ narrower than a tip, that is in its middle."
                 (limit-coordinate freedom box-axis -1d300 deepest))))))))
 
 (defun limit-by-room (freedom box width spread)
-  "Where both faces along an axis of BOX are constrained, keep a hand WIDTH wide, whose fingers are up to
-half a SPREAD from its middle, between them."
+  "Where both faces along an axis of BOX are constrained, keep a hand WIDTH wide, whose fingers are
+up to half a SPREAD from its middle, between them."
   (loop for axis below 3
         for face in '(5 3 1)
-        when (and (logbitp face (%box-constrained box)) (logbitp (opposite face) (%box-constrained box)))
+        when (and (logbitp face (%box-constrained box))
+                  (logbitp (opposite face) (%box-constrained box)))
           do (let ((most (+ (max 0d0 (/ (- (aref (%box-size box) axis) width) 2)) (/ spread 2))))
                (limit-coordinate freedom axis (- most) most))))
 
@@ -165,8 +168,8 @@ figures WORKSPACE holds."
             (freedom-low freedom) placement (freedom-high freedom)))
 
 (defun part-fingers (placement limit)
-  "Move the two fingers of LIMIT in PLACEMENT, along the line between them, a little inside its limits.
-True if they were outside."
+  "Move the two fingers of LIMIT in PLACEMENT, along the line between them, a little inside its
+limits.  True if they were outside."
   (let* ((one (* 3 (limit-between-one limit))) (two (* 3 (limit-between-two limit)))
          (skip (limit-between-skip limit))
          (apart (finger-distance placement (floor one 3) (floor two 3) skip))
@@ -185,7 +188,8 @@ True if they were outside."
             (decf (aref placement (+ one axis)) move)))))))
 
 (defun make-legal (placement freedom)
-  "Move the fingers of PLACEMENT to legal places nearby.  Return it, or NIL if that was not possible."
+  "Move the fingers of PLACEMENT to legal places nearby.  Return it, or NIL if that was not
+possible."
   (clamp placement freedom)
   (loop repeat 40
         do (let ((moved nil))

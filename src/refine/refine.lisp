@@ -3,15 +3,16 @@
 (in-package :supergrip)
 
 (defstruct (refinement (:copier nil))
-  "What moving the fingers of CANDIDATE, a possible one of PLAN, has gained.  HOME and CONTACTS are where
-they were and where they are now, as CANDIDATE-CONTACTS has it; RADIUS-BEFORE and RADIUS are (LOWER
-UPPER), the exact radius then and now, LOWER certified or NIL, or NIL where there is none;
-RADIUS-BOUND is what no legal placement exceeds; RADIUS-NEARBY what climbing from HOME alone reached,
-within 1 %."
+  "What moving the fingers of CANDIDATE, a possible one of PLAN, has gained.  HOME and CONTACTS are
+where they were and where they are now, as CANDIDATE-CONTACTS has it; RADIUS-BEFORE and RADIUS are
+(LOWER UPPER), the exact radius then and now, LOWER certified or NIL, or NIL where there is none;
+RADIUS-BOUND is what no legal placement exceeds; RADIUS-NEARBY what climbing from HOME alone
+reached, within 1 %."
   candidate plan home contacts radius-before radius radius-bound radius-nearby)
 
 (defun radius-quality (refinement radius)
-  "Return the quality that the candidate of REFINEMENT has with RADIUS, a force radius or NIL, which is 0."
+  "Return the quality that the candidate of REFINEMENT has with RADIUS, a force radius or NIL, which
+is 0."
   (let ((candidate (refinement-candidate refinement)))
     (quality-index (plan-gamma (refinement-plan refinement))
                    (%candidate-velocity-radius candidate) (%candidate-velocity-limit candidate)
@@ -40,7 +41,8 @@ within 1 %."
              (mapcar (lambda (sum) (/ sum count))
                      (reduce (lambda (a b) (mapcar #'+ a b)) contacts
                              :key (lambda (contact) (getf contact :position))))))
-      (mapcar #'- (middle (refinement-contacts refinement)) (middle (refinement-home refinement))))))
+      (mapcar #'- (middle (refinement-contacts refinement))
+              (middle (refinement-home refinement))))))
 
 (define-printing (refinement refinement) "~a (~{~a~^ ~}) Q~,3f -> ~,3f, at most ~,3f"
   (candidate-grasp (refinement-candidate refinement))
@@ -51,8 +53,8 @@ within 1 %."
 ;;; The search
 
 (defun start-refining (candidate workspace graspbase)
-  "Return the search for better places of the fingers of CANDIDATE, whose figures WORKSPACE holds; and the
-unit of its needs."
+  "Return the search for better places of the fingers of CANDIDATE, whose figures WORKSPACE holds;
+and the unit of its needs."
   (let* ((box (workspace-box workspace))
          (freedom (freedom-of candidate workspace graspbase))
          (unit (reduce #'max (%box-force box)))
@@ -72,8 +74,8 @@ unit of its needs."
     (values refining unit)))
 
 (defun certify (refining placement)
-  "Return the exact radius of REFINING at PLACEMENT, (LOWER UPPER), certified within 0.1 % if possible, else
-0.3 % or 1 %; LOWER is NIL if that is not possible either."
+  "Return the exact radius of REFINING at PLACEMENT, (LOWER UPPER), certified within 0.1 % if
+possible, else 0.3 % or 1 %; LOWER is NIL if that is not possible either."
   (let ((best nil))
     (loop for gap in '(1d-3 3d-3 1d-2)
           do (multiple-value-bind (upper lower) (ask refining placement gap (* 0.2d0 gap) 30000)
@@ -82,8 +84,8 @@ unit of its needs."
     best))
 
 (defun scan-and-climb (refining placement value)
-  "Return PLACEMENT, with the radius VALUE, or a better one, found from a lattice of all legal placements
-and then from one of those near the best; and its radius."
+  "Return PLACEMENT, with the radius VALUE, or a better one, found from a lattice of all legal
+placements and then from one of those near the best; and its radius."
   (dolist (part '(1 1/2))
     (multiple-value-bind (other radius) (scan refining part placement value)
       (when (> radius value)
@@ -92,8 +94,9 @@ and then from one of those near the best; and its radius."
   (values placement value))
 
 (defun better-places (refining before gap regions)
-  "Return a placement of REFINING that is surely better than the plan's, whose radius is BEFORE, or NIL;
-its radius; the bound of all radii; and the radius that climbing from the plan's places reached."
+  "Return a placement of REFINING that is surely better than the plan's, whose radius is BEFORE, or
+NIL; its radius; the bound of all radii; and the radius that climbing from the plan's places
+reached."
   (let* ((freedom (r-freedom refining))
          (home (copy-seq (freedom-home freedom)))
          (start (or (make-legal home freedom) (freedom-home freedom))))
@@ -112,8 +115,8 @@ its radius; the bound of all radii; and the radius that climbing from the plan's
   (reduce #'+ (mapcar (lambda (a b) (expt (- a b) 2)) from to)))
 
 (defun untangle (places contacts)
-  "Exchange PLACES, a vector, of CONTACTS on the same face while that shortens the ways of two fingers
-together, so that they do not cross.  Return PLACES."
+  "Exchange PLACES, a vector, of CONTACTS on the same face while that shortens the ways of two
+fingers together, so that they do not cross.  Return PLACES."
   (flet ((shorter-exchanged-p (a one b other)
            (let ((a (getf a :position)) (b (getf b :position)))
              (< (+ (square-of-way a other) (square-of-way b one))
@@ -130,8 +133,8 @@ together, so that they do not cross.  Return PLACES."
           finally (return places))))
 
 (defun placed-contacts (contacts placement)
-  "Return CONTACTS, plists, at PLACEMENT.  Fingers on one face are alike: which of them takes which place
-there is chosen so that their ways are short."
+  "Return CONTACTS, plists, at PLACEMENT.  Fingers on one face are alike: which of them takes which
+place there is chosen so that their ways are short."
   (let ((places (coerce (loop for place from 0 below (length placement) by 3
                               collect (map 'list #'without-sign-of-zero
                                            (subseq placement place (+ place 3))))
@@ -170,25 +173,28 @@ there is chosen so that their ways are short."
 (defun refine-grasps (plan &key (count 3) (gap 0.02d0) (regions 1000))
   "Return the REFINEMENTs of the COUNT best grasps of PLAN, the best first: see REFINE."
   (unless (typep count '(integer 1))
-    (refuse-argument "count is ~a; it is how many grasps to refine, 1 or more" (form-text count)))
+    (refuse-argument "count is ~a, but must be how many grasps to refine, 1 or more"
+                     (form-text count)))
   (unless (typep regions '(and fixnum (integer 0)))
-    (refuse-argument "regions is ~a; it is a number of regions, such as 1000" (form-text regions)))
+    (refuse-argument "regions is ~a, but must be a number of regions, such as 1000"
+                     (form-text regions)))
   (unless (and (realp gap) (as-double gap) (<= 0 gap 1))
-    (refuse-argument "gap is ~a; it is a number from 0 to 1, such as 0.02" (form-text gap)))
+    (refuse-argument "gap is ~a, but must be a number from 0 to 1, such as 0.02" (form-text gap)))
   (let ((refinements (without-float-traps
                        (loop for candidate in (best-grasps (need-plan plan) count)
                              collect (refine-candidate candidate plan (as-double gap) regions)))))
     (stable-sort refinements #'> :key #'refinement-quality)))
 
 (defun refine (&optional (plan (last-plan)) &rest keys)
-  "Move the fingers of the best grasps of PLAN, so that their exact quality is as great as possible, and
-return the best REFINEMENT, or NIL if the plan has no grasp.  The second value is the list of all, the
-best first.  KEYS are :COUNT, how many grasps, or else 3; :GAP, or else 0.02; :REGIONS, or else 1000.
+  "Move the fingers of the best grasps of PLAN, so that their exact quality is as great as possible,
+and return the best REFINEMENT, or NIL if the plan has no grasp.  The second value is the list of
+all, the best first.  KEYS are :COUNT, how many grasps, or else 3; :GAP, or else 0.02; :REGIONS, or
+else 1000.
 
-The exact quality is Q with the exact radius (see EXACT-RADIUS) in the place of u_w; u_t, a judgement
-of the grasp, stays.  Fingers stay on their faces and within what hand and faces allow.  They move only
-where the new places are surely better: the certified radius there is above the upper value before.
-It looks for the best places until it has proved that none is better by more than the part GAP, or has
-looked at REGIONS regions of them."
+The exact quality is Q with the exact radius (see EXACT-RADIUS) in the place of u_w; u_t, a
+judgement of the grasp, stays.  Fingers stay on their faces and within what hand and faces allow.
+They move only where the new places are surely better: the certified radius there is above the upper
+value before.  It looks for the best places until it has proved that none is better by more than the
+part GAP, or has looked at REGIONS regions of them."
   (let ((refinements (apply #'refine-grasps plan keys)))
     (values (first refinements) refinements)))

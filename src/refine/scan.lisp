@@ -1,7 +1,7 @@
 ;;;; scan.lisp -- all placements of a lattice, most of which the cuts rule out unasked.
 ;;;;
-;;;; There are two lattices: one of all legal placements, and a finer one of those near the best known.
-;;;; What the cuts allow most is moved to where they allow still more, and only then asked.
+;;;; There are two lattices: one of all legal placements, and a finer one of those near the best
+;;;; known.  What the cuts allow most is moved to where they allow still more, and only then asked.
 
 (in-package :supergrip)
 
@@ -22,8 +22,8 @@
                        append (loop for z in (along 2) collect (list x y z))))))
 
 (defun lattice (freedom count)
-  "Return the legal placements of FREEDOM in which each finger stands on a lattice of COUNT by COUNT; NIL
-if there are too many."
+  "Return the legal placements of FREEDOM in which each finger stands on a lattice of COUNT by
+COUNT; NIL if there are too many."
   (let* ((found '()) (left +most-scanned+) (tries +most-tried+) (fingers (freedom-count freedom))
          (places (loop for finger below fingers collect (finger-lattice freedom finger count)))
          (placement (copy-seq (freedom-home freedom))))
@@ -52,7 +52,8 @@ if there are too many."
         finally (return finest)))
 
 (defun freedom-near (freedom placement part)
-  "Return FREEDOM with PART of the way that each finger has, around PLACEMENT; with 1, FREEDOM itself."
+  "Return FREEDOM with PART of the way that each finger has, around PLACEMENT; with 1, FREEDOM
+itself."
   (when (= part 1) (return-from freedom-near freedom))
   (let ((low (copy-seq (freedom-low freedom))) (high (copy-seq (freedom-high freedom))))
     (map-into low (lambda (low high here) (max low (- here (* part 1/2 (- high low)))))
@@ -64,8 +65,8 @@ if there are too many."
                   :between (freedom-between freedom))))
 
 (defun raise (refining placement step)
-  "Return a placement of which the cuts of REFINING allow most, found from PLACEMENT by moves of STEP cm
-and shorter ones; and what they allow.  Nothing is asked."
+  "Return a placement of which the cuts of REFINING allow most, found from PLACEMENT by moves of
+STEP cm and shorter ones; and what they allow.  Nothing is asked."
   (let* ((freedom (r-freedom refining)) (moves (unit-moves freedom))
          (allowed (cuts-radius refining placement)))
     (flet ((try (move way)
@@ -85,9 +86,9 @@ and shorter ones; and what they allow.  Nothing is asked."
 (defparameter +most-raised+ 40 "How many placements of a lattice are raised at most.")
 
 (defun scan (refining part placement value)
-  "Return the best placement, within 1 %, found from a lattice of PART of the way that each finger has,
-around PLACEMENT; and its radius.  If that is not above VALUE, the radius of PLACEMENT, return these
-two.  Only where the cuts allow more is the radius asked."
+  "Return the best placement, within 1 %, found from a lattice of PART of the way that each finger
+has, around PLACEMENT; and its radius.  If that is not above VALUE, the radius of PLACEMENT, return
+these two.  Only where the cuts allow more is the radius asked."
   (let* ((near (freedom-near (r-freedom refining) placement part))
          (step (/ (nth-value 1 (widest (freedom-low near) (freedom-high near))) 8))
          (ways (loop for other in (finest-lattice near)

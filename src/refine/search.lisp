@@ -3,8 +3,9 @@
 (in-package :supergrip)
 
 (defun unit-moves (freedom)
-  "Return the moves that the search tries: lists of (PLACE . PART), PART of a step for the coordinate
-PLACE of a placement.  They move one finger, all fingers, two fingers together, or apart."
+  "Return the moves that the search tries: lists of (PLACE . PART), PART of a step for the
+coordinate PLACE of a placement.  They move one finger, all fingers, two fingers together, or
+apart."
   (flet ((free-p (place)
            (> (aref (freedom-high freedom) place) (aref (freedom-low freedom) place)))
          (move (axis &rest fingers-and-parts)
@@ -42,8 +43,8 @@ PLACE of a placement.  They move one finger, all fingers, two fingers together, 
             (setf (aref placement place) here)))))))
 
 (defun slope-move (refining placement value part)
-  "Return the move that raises the cuts of REFINING that are least at PLACEMENT, VALUE, or more by about
-PART of it, the least ones most; NIL if none does."
+  "Return the move that raises the cuts of REFINING that are least at PLACEMENT, VALUE, or more by
+about PART of it, the least ones most; NIL if none does."
   (let ((slope (make-array (length placement) :element-type 'double-float :initial-element 0d0))
         (soft (+ 1d-12 (* part (abs value)))))
     (dolist (cut (r-cuts refining))
@@ -61,8 +62,8 @@ PART of it, the least ones most; NIL if none does."
   "Within which part of the radius cuts count for a move along the slope.")
 
 (defun better-ways (refining placement value moves step)
-  "Return what MOVES by STEP, and those along slopes, make of PLACEMENT, if the cuts of REFINING allow it
-more than VALUE: a list of (RADIUS . PLACEMENT), RADIUS the least that the cuts allow."
+  "Return what MOVES by STEP, and those along slopes, make of PLACEMENT, if the cuts of REFINING
+allow it more than VALUE: a list of (RADIUS . PLACEMENT), RADIUS the least that the cuts allow."
   (let ((slopes (remove nil (loop for part in +softness+
                                   collect (slope-move refining placement value part)))))
     (loop for move in (append slopes moves)
@@ -73,7 +74,8 @@ more than VALUE: a list of (RADIUS . PLACEMENT), RADIUS the least that the cuts 
                          collect (cons radius new)))))
 
 (defun most-allowed (ways least)
-  "Return those of WAYS, a list of (RADIUS . PLACEMENT), with a RADIUS above LEAST, the greatest first."
+  "Return those of WAYS, a list of (RADIUS . PLACEMENT), with a RADIUS above LEAST, the greatest
+first."
   (stable-sort (remove least ways :key #'car :test #'>=) #'> :key #'car))
 
 (defun allow-less (ways refining)
@@ -83,9 +85,9 @@ more than VALUE: a list of (RADIUS . PLACEMENT), RADIUS the least that the cuts 
       (setf (car way) (min (car way) (cut-power refining cut (cdr way)))))))
 
 (defun first-above (refining ways least most)
-  "Ask for the radii of at most MOST of WAYS, (RADIUS . PLACEMENT), the most promising first, until one is
-above LEAST.  Return its placement and its radius, or NIL.  What is asked makes cuts, which rule out
-others."
+  "Ask for the radii of at most MOST of WAYS, (RADIUS . PLACEMENT), the most promising first, until
+one is above LEAST.  Return its placement and its radius, or NIL.  What is asked makes cuts, which
+rule out others."
   (loop repeat most
         while (may-ask-p refining)
         do (setf ways (most-allowed ways least))
@@ -105,8 +107,8 @@ others."
 (defparameter +most-asked+ 8 "How many moves of one length may fail before shorter ones are tried.")
 
 (defun climb (refining placement value)
-  "Return a placement that no small move betters, found from PLACEMENT, with the radius VALUE; and its
-radius.  The first step is a quarter of the way that a finger has, the last one 0.1 mm or less."
+  "Return a placement that no small move betters, found from PLACEMENT, with the radius VALUE; and
+its radius.  The first step is a quarter of the way that a finger has, the last one 0.1 mm or less."
   (let* ((freedom (r-freedom refining)) (moves (unit-moves freedom))
          (way (nth-value 1 (widest (freedom-low freedom) (freedom-high freedom)))))
     (loop with step = (/ way 4)

@@ -3,7 +3,8 @@
 (in-package :supergrip)
 
 (defun finger-place-text (place)
-  "Return PLACE, three numbers in cm, to 0.1 mm: as (-0.87 -1 0), or with its unit if *UNITS* are others."
+  "Return PLACE, three numbers in cm, to 0.1 mm: as (-0.87 -1 0), or with its unit if *UNITS* are
+others."
   (let ((text (plain-text "(~{~a~^ ~})"
                           (loop for number in place
                                 collect (number-text (in-units (/ (round (* 100 number)) 100d0)
@@ -14,7 +15,8 @@
   "Write where each finger of REFINEMENT was, and where it is now."
   (loop for home in (refinement-home refinement)
         for contact in (refinement-contacts refinement)
-        do (format stream "  ~a on ~a: from ~a to ~a~%" (getf contact :finger) (getf contact :surface)
+        do (format stream "  ~a on ~a: from ~a to ~a~%"
+                   (getf contact :finger) (getf contact :surface)
                    (finger-place-text (getf home :position))
                    (finger-place-text (getf contact :position)))))
 
@@ -59,21 +61,22 @@
               (gain-text after (refinement-quality-bound answer))))))
 
 (defun write-plans-best (refinement refinements stream)
-  "Write what REFINEMENTS, all that were made, say of the plan's best grasp, if REFINEMENT is not of it."
+  "Write what REFINEMENTS, all that were made, say of the plan's best grasp, if REFINEMENT is not of
+it."
   (let ((best (find (plan-best (refinement-plan refinement)) refinements
                     :key #'refinement-candidate)))
     (unless (or (null best) (eq best refinement))
-      (format stream "The plan's best grasp is ~a (~{~a~^ ~}).  Its exact Q is ~:[~,3f~*; its fingers ~
-                      stay~;~,3f, and ~,3f with its fingers moved~].~%"
+      (format stream "The plan's best grasp is ~a (~{~a~^ ~}).  Its exact Q is ~:[~,3f~*; its ~
+                      fingers stay~;~,3f, and ~,3f with its fingers moved~].~%"
               (candidate-grasp (refinement-candidate best))
               (candidate-matching (refinement-candidate best))
               (refinement-moved-p best)
               (refinement-quality-before best) (refinement-quality best)))))
 
 (defun explain-refinement (&optional (plan (last-plan)) &rest keys)
-  "Refine PLAN as REFINE does, with the same KEYS; print what that gained, in words, of the best grasp, and
-return its REFINEMENT.  If the plan's best was another grasp, it is told of too.  PLAN may be a
-refinement that REFINE has returned."
+  "Refine PLAN as REFINE does, with the same KEYS; print what that gained, in words, of the best
+grasp, and return its REFINEMENT.  If the plan's best was another grasp, it is told of too.  PLAN
+may be a refinement that REFINE has returned."
   (if (refinement-p plan)
       (print-answer plan)
       (let* ((refinements (apply #'refine-grasps plan keys)) (best (first refinements)))
