@@ -351,7 +351,7 @@ cat \"$1\" | \"$0\" --input json --format sexp" (spoiled-json))
               (records (lines-of output)))
           (is (plusp (length lines)))
           (is (= (length lines) (length records)))
-          ;; How data look in either notation is tested in t/data.lisp.
+          ;; How data look in either notation is tested in t/carried-data.lisp.
           (loop for line in lines
                 for record in records
                 unless (equal (without-data (json-record line)) (without-data (lisp-record record)))

@@ -1,4 +1,4 @@
-;;;; search.lisp -- a pattern search for the placement of the greatest exact radius.
+;;;; climb.lisp -- a pattern search for the placement of the greatest exact radius.
 
 (in-package :supergrip)
 

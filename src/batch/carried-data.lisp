@@ -1,5 +1,5 @@
-;;;; data.lisp -- DATA, which a box carries along, is written in JSON or in Lisp, whatever its
-;;;; notation was in the box.
+;;;; carried-data.lisp -- DATA, which a box carries along, is written in JSON or in Lisp, whatever
+;;;; its notation was in the box.
 ;;;;
 ;;;; The file also writes strings.
 

@@ -1,7 +1,7 @@
-;;;; data.lisp -- what a box carries along comes back as it was.
+;;;; carried-data.lisp -- what a box carries along comes back as it was.
 
 (in-package :supergrip-test)
-(define-suite data "What a box carries along comes back as it was.")
+(define-suite carried-data "What a box carries along comes back as it was.")
 
 (defun carried (notation text)
   "Return what a record says of a box in NOTATION with the data TEXT."
