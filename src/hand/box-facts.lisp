@@ -10,7 +10,7 @@
   (words "" :type string) (face-list 0 :type face-list) spot)
 
 (defun box-facts (box)
-  "Return the facts of its own that BOX has, a new list as FACTS has them, of strings:
+  "Return the FACTS that BOX states, a new list in the shape of FACTS, with strings for names:
 ((\"FRAGILE\" (\"Z1\")) (\"WET\"))."
   (shown-value :facts (%box-facts box)))
 

@@ -35,10 +35,10 @@ something else.  INSTEAD is the key in whose place it stands."
 (defmacro define-box-key (key type takes example
                           &key slot optional words measure absolute instead
                             (json (substitute #\_ #\- (string-downcase key))))
-  "Define the KEY, a keyword, of box descriptions, which takes what TYPE says (see BOX-KEY), TAKES
-in words; EXAMPLE is a list of what may follow it.  SLOT, a keyword, names its own slot; without one
-the value is among the others of the box, for BOX-VALUE.  MEASURE, ABSOLUTE and INSTEAD: see
-BOX-KEY."
+  "Define KEY, a keyword, as a key of box descriptions.  TYPE says what it takes (see BOX-KEY), and
+the text TAKES says so in words; EXAMPLE is a list of what may follow KEY.  SLOT, a keyword, names a
+slot of the box for the value; without SLOT, BOX-VALUE reads the value.  MEASURE, ABSOLUTE and
+INSTEAD: see BOX-KEY."
   `(add-box-key
     (make-box-key :key ,key :json ,json :type ',type :takes ,takes :example ',example
                   :optional ,optional :words ,words :slot ,slot :measure ,measure
@@ -110,9 +110,9 @@ makes of each number; NIL if it makes NIL of one."
         value)))
 
 (defun box-value (box key)
-  "Return what BOX gives for KEY, a symbol or a string: as the description has it, or NIL.  For keys
-that DEFINE-BOX-KEY has added; a set of faces is an integer, numbers are doubles, facts are lists of
-strings, as are units."
+  "Return what BOX gives for KEY, a symbol or a string, as the description has it; or NIL.  It
+serves keys that DEFINE-BOX-KEY has added.  A set of faces is an integer, numbers are doubles, facts
+and units are lists of strings."
   (let ((row (find (and (or (symbolp key) (stringp key)) (string-upcase key)) *box-keys*
                    :key #'box-key-key :test #'string=)))
     (if row

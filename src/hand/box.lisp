@@ -33,8 +33,8 @@ whose mass is given, a finger force is 1 N until a plan knows the gripper: see B
 (defun box-size (box) "Return the sizes of BOX along X Y Z, a list, in cm."
   (coerce (%box-size box) 'list))
 (defun box-weight (box)
-  "Return the weight of BOX, in units of one finger's greatest normal force; as long as no plan
-was made for it, in N if it is given in N, lbf or kg."
+  "Return the weight of BOX, in units of one finger's greatest normal force.  A weight that is given
+in N, lbf or kg is in N until a plan is made for BOX; the box of a plan has it in finger forces."
   (%box-weight box))
 (defun box-friction (box) "Return the coefficient of friction of BOX, U." (%box-friction box))
 (defun box-soft-friction (box)
@@ -44,9 +44,9 @@ was made for it, in N if it is given in N, lbf or kg."
   (loop for face below 6
         when (logbitp face (%box-constrained box)) collect (face-name face)))
 (defun box-force-needed (box)
-  "Return the forces along X Y Z and the torques about X Y Z that the task needs, a list: 0 to 1,
-or, if they are absolute, in finger forces and finger force x cm; as long as no plan was made for
-BOX, in N and N cm."
+  "Return the forces along X Y Z and the torques about X Y Z that the task needs, a list.  Relative
+needs are from 0 to 1.  Absolute ones are in N and N cm until a plan is made for BOX; the box of a
+plan has them in finger forces and finger force x cm."
   (coerce (%box-force box) 'list))
 (defun box-velocity-needed (box)
   "Return the velocities along and about X Y Z that the task needs, a list, 0 to 1."

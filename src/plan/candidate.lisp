@@ -147,19 +147,20 @@ it failed before they were known."
 
 (defun candidate-wrench (candidate &optional (plan *plan*))
   "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, gravity's load not taken off:
-six numbers, forces in finger forces, torques in finger force x cm.  NIL where it failed before."
+six numbers, forces in finger forces, torques in finger force x cm.  NIL if CANDIDATE failed at an
+earlier step."
   (replayed-six #'workspace-wrench candidate plan))
 
 (defun candidate-twist (candidate &optional (plan *plan*))
-  "Return the mobility of CANDIDATE of PLAN along X Y Z and about X Y Z, six numbers.
-NIL where it failed before."
+  "Return the mobility of CANDIDATE of PLAN along X Y Z and about X Y Z, six numbers.  NIL if
+CANDIDATE failed at an earlier step."
   (replayed-six #'workspace-twist candidate plan))
 
 (defun candidate-sure (candidate &optional (plan *plan*))
-  "Return the sure radius of CANDIDATE of PLAN: how many times the forces and torques that the task
-needs, all together and in any direction, its contacts surely bear beside the weight; a double, 0 or
-more.  NIL if it is not possible, or the task needs no force.  u_w looks at one axis at a time, and
-is no such promise.  Source: SURE-RADIUS."
+  "Return the sure radius of CANDIDATE of PLAN, a double, 0 or more.  Its contacts surely bear this
+multiple of the forces and torques that the task needs, all together and in any direction, beside
+the weight.  NIL if CANDIDATE is not possible, or the task needs no force.  u_w looks at one axis at
+a time, and promises no such thing.  Source: SURE-RADIUS."
   (and (eq (candidate-outcome candidate) :possible)
        (with-replay (workspace candidate plan)
          (sure-of candidate workspace))))
@@ -209,8 +210,9 @@ X Y Z."
     (coerce load 'list)))
 
 (defun candidate-spare (candidate &optional (plan *plan*))
-  "Return what CANDIDATE of PLAN exerts along X Y Z and about X Y Z, both ways, beside gravity's
-load: six numbers.  NIL where it failed before."
+  "Return what CANDIDATE of PLAN can exert for the task along X Y Z and about X Y Z, while it bears
+the load of gravity: six numbers, each for the weaker of the two directions.  NIL if CANDIDATE
+failed at an earlier step."
   (replayed-six (lambda (workspace)
                   (put-load (workspace-box workspace) (%candidate-x candidate)
                             (%candidate-y candidate) (%candidate-z candidate)

@@ -184,8 +184,8 @@ difference.")
 ;;; Answers, for plans by any index
 
 (defun candidate-bound-p (candidate)
-  "True if the quality and u_w of CANDIDATE are upper bounds: so in exact mode where a candidate
-could not become the best, and was not looked at more closely."
+  "True if the quality and u_w of CANDIDATE are only upper bounds.  In exact mode this is so of a
+candidate that could not become the best, and so was not looked at more closely."
   (%candidate-bound candidate))
 
 (defmacro with-grip ((grip box candidate plan) &body body)
@@ -199,10 +199,11 @@ can't be computed with."
                    (progn ,@body)))))))
 
 (defun candidate-exact-radius (candidate plan &key (gap +gap+) (absolute +absolute+))
-  "Return what the contacts of CANDIDATE of PLAN can really do, by whatever index the plan was made:
-the exact force radius, an upper value, the certified lower one, or NIL, and the worst motion, a
-list of six, as EXACT-RADIUS does, which explains GAP and ABSOLUTE.  NIL if it is not possible, the
-task needs no force, or places or weight are too large to compute with."
+  "Return the exact force radius of the contacts of CANDIDATE of PLAN, by whatever index the plan
+was made.  The three values are those of EXACT-RADIUS: an upper value; the certified lower one, or
+NIL; and the worst motion, a list of six.  GAP and ABSOLUTE are explained there.  Returns NIL if
+CANDIDATE is not possible, if the task needs no force, or if places or weight are too large to
+compute with."
   (let ((gap (coerce gap 'double-float)) (absolute (coerce absolute 'double-float))
         (strength (%candidate-strength candidate)))
     (cond ((every #'zerop (%box-force (plan-box (need-plan plan)))) nil)
@@ -217,10 +218,10 @@ task needs no force, or places or weight are too large to compute with."
                  (values upper lower (coerce worst 'list))))))))
 
 (defun candidate-fits (candidate &optional (plan *plan*))
-  "Return T if the contacts of CANDIDATE of PLAN do the task at radius 1, all forces and torques
-together and in any direction, beside the weight: the sure radius or the certified one is 1 or more;
-:FALSE if they do not: the upper value is below 1.  NIL if neither was proved, or CANDIDATE is not
-possible.  This is for tasks whose needs are absolute."
+  "Say whether the contacts of CANDIDATE of PLAN do the task at radius 1: all forces and torques
+together and in any direction, beside the weight.  T if they surely do: the sure radius or the
+certified one is 1 or more.  :FALSE if they surely do not: the upper value is below 1.  NIL if
+neither was proved, or if CANDIDATE is not possible.  This is for tasks whose needs are absolute."
   (flet ((proved (&rest how)
            (multiple-value-bind (upper lower) (apply #'candidate-exact-radius candidate plan how)
              (cond ((null upper) nil)   ; too large to compute with
@@ -236,17 +237,18 @@ possible.  This is for tasks whose needs are absolute."
 
 (defun candidate-squeeze (candidate &optional (plan *plan*))
   "Return the least cap on each finger's force with which the contacts of CANDIDATE of PLAN surely
-do the task at radius 1 and hold the weight, in units of a finger's greatest force: 1 or less if
-they do it as they are.  NIL if no cap does or it was not proved, if it is not possible, or if there
-is neither need nor weight.  See LEAST-SQUEEZE."
+do the task at radius 1 and hold the weight, in units of a finger's greatest force.  It is 1 or less
+if the greatest force is enough.  NIL if no cap is enough, if none was proved to be, if CANDIDATE is
+not possible, or if there is neither need nor weight.  See LEAST-SQUEEZE."
   (with-grip (grip box candidate plan)
     (and (or (plusp (%box-weight box)) (some #'plusp (%box-force box)))
          (values (grip-squeeze grip (%box-force box) (gravity-on box))))))
 
 (defun candidate-friction-margin (candidate &optional (plan *plan*))
-  "Return by how much the friction u may be less and the contacts of CANDIDATE of PLAN surely still
-do the task at radius 1 and hold the weight: below 0 if they need more.  NIL if no u does or it was
-not proved, or if it is not possible.  See LEAST-FRICTION."
+  "Return how much less the friction u may be, so that the contacts of CANDIDATE of PLAN surely
+still do the task at radius 1 and hold the weight.  The number is below 0 if they need more
+friction.  NIL if no u is enough, if none was proved to be, or if CANDIDATE is not possible.  See
+LEAST-FRICTION."
   (with-grip (grip box candidate plan)
     (let ((least (grip-least-friction grip (%box-force box) (gravity-on box))))
       (and least (- (%box-friction box) least)))))
@@ -267,7 +269,7 @@ help."
         (if (plusp (reduce #'+ powers)) powers '(0d0 0d0 0d0))))))
 
 (defun candidate-powers (candidate motion &optional (plan *plan*))
-  "Return what the contacts of CANDIDATE of PLAN can do at most in MOTION, a list of six, such as
+  "Return the greatest power of the contacts of CANDIDATE of PLAN in MOTION, a list of six, such as
 the worst that CANDIDATE-EXACT-RADIUS gives: four numbers, the power of pressing, of friction, of
 the fingertips' torque and of the weight.  Together they are the radius times what the task needs
 there."

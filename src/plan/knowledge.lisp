@@ -48,8 +48,9 @@ prevent it."
   (or (knowledge-gripper-file knowledge) (knowledge-grasp-file knowledge)))
 
 (defun declared-inputs (knowledge)
-  "Return what the rule file of KNOWLEDGE declares by (INPUT ...), in its order: a new list of
-(WORDS COUNT), WORDS a list of strings, COUNT how many faces its lists have."
+  "Return what the rule file of KNOWLEDGE declares by (INPUT ...), in the order of the file: a new
+list of (WORDS COUNT).  WORDS is a list of strings, COUNT how many faces each list of such a fact
+has."
   (loop for predicate across (rulebase-predicates (knowledge-rulebase knowledge))
         when (declared-p predicate)
           collect (list (copy-list (predicate-words predicate)) (predicate-arity predicate))))

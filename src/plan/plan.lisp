@@ -28,7 +28,8 @@
                                    fact~]"
                            (form-text given) (or (namep given) (consp given) (stringp given)))
                    (write-string "there is no plan yet: call (forward-chain) first" stream)))))
-  (:documentation "A question about a plan was asked before there was one, or of something else."))
+  (:documentation "A question about a plan was asked before there was a plan, or about something
+that is no plan."))
 
 (defvar *made-in* '()
   "The plan that was made last, and what was in force then: the box, the knowledge and gamma.")
@@ -298,8 +299,8 @@ Rules that end without KEEP or CANT keep the best."
   (:documentation "The selection parameter is no number from 0 to 1."))
 
 (defun plan-verdict (&optional (plan (last-plan)))
-  "Return :GRASP if PLAN found a grasp, :CANT if the box can't be grasped, :UNFINISHED if PLAN is of
-a run that stands at a break or a step; its best grasp is then the best so far."
+  "Return :GRASP if PLAN found a grasp, :CANT if the box can't be grasped, :UNFINISHED if the run
+stands at a break or a step.  The best grasp of PLAN is then the best so far."
   (cond ((unfinished-p (need-plan plan)) :unfinished)
         ((plan-best plan) :grasp)
         (t :cant)))
@@ -312,7 +313,8 @@ a run that stands at a break or a step; its best grasp is then the best so far."
   (eq (%candidate-outcome candidate) :possible))
 
 (defun plan-possible (&optional (plan (last-plan)))
-  "Return the possible grasps of PLAN, candidates, the best first; equals as they were tried."
+  "Return the possible grasps of PLAN, candidates, the best first; those of equal quality are in the
+order in which they were tried."
   ;; STABLE-SORT destroys its list: it gets one that nobody else holds.
   (stable-sort (loop for candidate in (plan-candidates plan)
                      when (possible-p candidate) collect candidate)

@@ -188,13 +188,13 @@ place there is chosen so that their ways are short."
 (defun refine (&optional (plan (last-plan)) &rest keys)
   "Move the fingers of the best grasps of PLAN, so that their exact quality is as great as possible,
 and return the best REFINEMENT, or NIL if the plan has no grasp.  The second value is the list of
-all, the best first.  KEYS are :COUNT, how many grasps, or else 3; :GAP, or else 0.02; :REGIONS, or
-else 1000.
+all, the best first.  KEYS are :COUNT, how many grasps, 3 by default; :GAP, 0.02 by default;
+:REGIONS, 1000 by default.
 
 The exact quality is Q with the exact radius (see EXACT-RADIUS) in the place of u_w; u_t, a
 judgement of the grasp, stays.  Fingers stay on their faces and within what hand and faces allow.
-They move only where the new places are surely better: the certified radius there is above the upper
-value before.  It looks for the best places until it has proved that none is better by more than the
-part GAP, or has looked at REGIONS regions of them."
+They move only if the new places are surely better: the certified radius of the new places is above
+the upper value of the old ones.  The search ends when it is proved that no places are better by
+more than the share GAP, or after REGIONS regions of places."
   (let ((refinements (apply #'refine-grasps plan keys)))
     (values (first refinements) refinements)))

@@ -46,7 +46,8 @@ before it."
   "(TRY NAME [SUGGESTION] &KEY BOX KNOWLEDGE GAMMA INDEX STREAM): try the grasp NAME on the box,
 without rules, in all matchings that use no constrained face, equivalent ones once.  SUGGESTION
 leaves only the matchings that have its faces: six for N1 N2 O1 O2 A1 A2, ? for any, as (? X2 Y2 Y1
-? Z1).  Print the paper's line for each that is possible, and return all that was tried, candidates.
+? Z1).  Print the paper's line for each that is possible, and return the candidates, all that were
+tried.
 
 *PLAN* becomes a plan of all that was tried by hand since the last FORWARD-CHAIN or change of the
 box; what was tried again is in it once.  BOX is by default what (setq box ...) gave, other keys are

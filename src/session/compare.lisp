@@ -39,8 +39,8 @@ them."
 (defun compare-knowledge (old new boxes &key (gamma *gamma*) (index :paper)
                                           (stream *standard-output*))
   "Plan each of BOXES, or the one box, with the knowledge OLD and with NEW; write what differs to
-STREAM (NIL: do not) and return a list of DIFFERENCEs, in the order of BOXES.  A fact of a box that
-only one of the two declares is left out for the other.
+STREAM, or nothing if that is NIL, and return a list of DIFFERENCEs, in the order of BOXES.  A fact
+of a box that only one of the two declares is left out for the other.
 
 If BOXES is :SITUATIONS, compare instead what the rules answer in all situations that the rules of
 either can tell apart: whether they refuse the box, what they suggest, and in which order.  There

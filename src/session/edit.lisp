@@ -317,9 +317,9 @@ and forms of the name and the value of a SETQ for EDIT."
         (t `(set-variable ',name ,value))))
 
 (defmacro supergrip-user:setq (&rest pairs &environment environment)
-  "SETQ, but at top level (SETQ name '(USED-SURFACES ...)), (SETQ GRIPPER '(...)) and (SETQ
-dimension number) edit the knowledge in force; several at once take effect together.  Where a
-variable is meant, as inside a function, it is SETQ alone."
+  "Do what CL:SETQ does; but at top level (SETQ name '(USED-SURFACES ...)), (SETQ GRIPPER '(...))
+and (SETQ dimension number) edit the knowledge in force.  Several pairs at once take effect
+together.  Where a variable is meant, as inside a function, it is CL:SETQ alone."
   (let ((forms '()) (definitions '()))
     (flet ((add (form)
              (when definitions

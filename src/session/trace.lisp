@@ -35,12 +35,14 @@ the names of all that is traced."
   (apply #'trace-rule names))
 
 (defun untrace-rule (&rest names)
-  "Trace the rules NAMES no longer; without NAMES, nothing.  Returns the names of what still is."
+  "Stop tracing the rules NAMES.  Without NAMES, trace nothing any more, neither rules nor grasps.
+Returns the names of all that is still traced."
   (setf *traced* (and names (set-difference *traced* (mapcar #'break-text names)
                                             :test #'string=))))
 
 (defun untrace-grasp (&rest names)
-  "Trace the grasps NAMES no longer; without NAMES, nothing.  Returns the names of what still is."
+  "Stop tracing the grasps NAMES.  Without NAMES, trace nothing any more, neither rules nor grasps.
+Returns the names of all that is still traced."
   (apply #'untrace-rule names))
 
 (defun break-on (what)
@@ -69,7 +71,7 @@ Returns all breaks."
               (sort (copy-list (face-list-names face-list)) #'string<)))
 
 (defun unbreak (&optional (what nil given))
-  "Take back (BREAK-ON WHAT); without WHAT, all.  Returns the breaks that are left."
+  "Take back (BREAK-ON WHAT), or all breaks without WHAT.  Returns the breaks that are left."
   (setf *breaks* (and given (remove (break-text what) *breaks* :test #'string=))))
 
 ;;; Stops

@@ -27,9 +27,9 @@ and that stands for NUMBER, or, if ROUNDED, is next to it; else NIL."
               single))))
 
 (defun assertions (&optional (plan (last-plan)))
-  "Return all that is known at the end of PLAN, or now if its run has stopped: a list a predicate,
-its words followed by its lists of faces, symbols of the current package.  PLAN-ASSERTIONS gives
-strings."
+  "Return all that is known at the end of PLAN, or now if its run has stopped.  There is one list
+for each predicate: its words, then its lists of faces.  All are symbols of the current package.
+PLAN-ASSERTIONS gives strings."
   (as-typed (plan-assertions plan)))
 
 (defun rules (&optional (knowledge *knowledge*))

@@ -83,8 +83,8 @@
 
 (defun exact-radius (contacts u v need &key (gravity *nothing*) (gap 0.01d0) (absolute 0.002d0)
                                          (budget 100000) coupled)
-  "Return the exact force radius of CONTACTS for the task NEED: how much the task ellipsoid can
-grow until the contacts can't exert all its wrenches, gravity's borne at the same time.
+  "Return the exact force radius of CONTACTS for the task NEED: the greatest factor by which the
+task ellipsoid can grow, so that the contacts can exert all its wrenches while they bear gravity's.
 
 CONTACTS  a list of (position inward-normal), each three numbers, from the box centre, in cm.
 U, V      the coefficients of friction and of the soft finger's torque, V in cm, not below 0.
@@ -92,16 +92,17 @@ NEED      six numbers, forces along X Y Z and torques about X Y Z, about the box
           semi-axes of the task ellipsoid of radius 1.  0 is not needed, signs do not matter.
 GRAVITY   six numbers likewise: the wrench of the weight on the box, as (0 0 -0.2 0 0 0).
 GAP, ABSOLUTE  how far the lower value may be below the upper one: GAP times it, or ABSOLUTE.
-BUDGET    how many boxes of motions are looked at, at most, to prove the lower value.
+BUDGET    how many cells of motions are looked at, at most, to prove the lower value.
 COUPLED   true: friction force and torque of a finger share its friction.
 
 Forces are in units of a finger's greatest normal force, torques in its product with cm.
 
-Three values: an upper value; a lower one, certified, or NIL if the budget did not do for that; and
-the worst motion, a list of six, velocities along and rotations about X Y Z, in which the contacts
-have the least to spare: with |F q| = 1 for the needs F, their power there is the upper value.  If
-the contacts can't hold the weight, both numbers are the same and not above 0, the power that lacks
-in the third value, a motion of length 1.  If they can, but bear no task ellipsoid, both are 0.
+Three values: an upper value; a lower one, certified, or NIL if BUDGET was too small to prove one;
+and the worst motion, a list of six, velocities along and rotations about X Y Z, in which the
+contacts have the least to spare.  It is scaled to |F q| = 1 for the needs F, so that the power of
+the contacts in it is the upper value.  If the contacts can't hold the weight, both numbers are the
+same, and not above 0: the power, with gravity's, in the third value, a motion of length 1.  If they
+can hold it, but bear no task ellipsoid, both are 0.
 
 A task that needs nothing has no radius: an ARGUMENT-ERROR, as for arguments that can't be used.
 
@@ -124,9 +125,9 @@ Source: docs/physics.md, what the contacts can really do."
 
 (defun holds-p (contacts u v gravity &key coupled)
   "True if CONTACTS can hold the box against the wrench GRAVITY.  If not, the second value is a
-motion, a list of six, in which their greatest power and gravity's together are below 0.
-Arguments, units and assumptions are those of EXACT-RADIUS.  On the border, what lacks 1e-7 of the
-reach is held."
+motion, a list of six, in which their greatest power and gravity's together are below 0.  Arguments,
+units and assumptions are those of EXACT-RADIUS.  On the border, a wrench that is outside by up to
+1e-7 of the contacts' reach counts as held."
   (without-float-traps
     (multiple-value-bind (holds witness)
         (grip-holds-p (check-grip contacts u v coupled) (check-six gravity "gravity"))
@@ -172,9 +173,10 @@ of the two is the exact WRENCH entry.  Arguments, units and assumptions are thos
 (defun least-squeeze (contacts u v need &key (gravity *nothing*) (gap 0.01d0) (budget 100000)
                                          coupled)
   "Return the least cap on each finger's force with which CONTACTS still do the task NEED at radius
-1 and hold the weight: a cap that surely does, and one below which none does, at most GAP of the
-first less.  Both are NIL if no cap does; the first is, if BUDGET did not do for the proof.
-Arguments, units and assumptions are those of EXACT-RADIUS; NEED may be nothing."
+1 and hold the weight.  There are two values: a cap that is surely enough, and one below which none
+is enough.  The second is less by at most GAP times the first.  Both are NIL if no cap is enough.
+The first alone is NIL if BUDGET was too small for the proof.  Arguments, units and assumptions are
+those of EXACT-RADIUS; NEED may be nothing."
   (without-float-traps
     (let ((need (map 'six #'abs (check-six need "need"))))
       (multiple-value-bind (sure least)
@@ -184,11 +186,12 @@ Arguments, units and assumptions are those of EXACT-RADIUS; NEED may be nothing.
 
 (defun least-friction (contacts v need &key (gravity *nothing*) (gap 0.01d0) (absolute 0.002d0)
                                          (budget 20000) coupled)
-  "Return the least coefficient of friction u with which CONTACTS still do the task NEED at radius
-1 and hold the weight: one that surely does, and one below which none does.  V stays as it is.
-They differ by at most GAP of the second and ABSOLUTE; if BUDGET boxes do not do to prove that, by
-up to 64 times as much; if that can't be proved, the first is NIL.  Both are NIL if no u up to 100
-does the task.  Arguments, units and assumptions are those of EXACT-RADIUS; NEED may be nothing."
+  "Return the least coefficient of friction u with which CONTACTS still do the task NEED at radius 1
+and hold the weight.  There are two values: a u that is surely enough, and a u below which none is
+enough.  V stays as it is.  They differ by at most GAP times the second, or ABSOLUTE.  If BUDGET is
+too small to prove this, they may differ by up to 64 times as much; if that can't be proved either,
+the first is NIL.  Both are NIL if no u up to 100 is enough.  Arguments, units and assumptions are
+those of EXACT-RADIUS; NEED may be nothing."
   (without-float-traps
     (let ((need (map 'six #'abs (check-six need "need"))))
       (multiple-value-bind (sure least)
@@ -198,8 +201,9 @@ does the task.  Arguments, units and assumptions are those of EXACT-RADIUS; NEED
         (values (check-result sure) (check-result least))))))
 
 (defun sure-radius (capacities need &key (gravity *nothing*) (offset '(0 0 0)))
-  "Return a radius that contacts surely bear which exert CAPACITIES along and about each axis, both
-ways, or NIL if nothing is needed: at most the exact radius of any such contacts, and at least 0.
+  "Return a radius that contacts surely bear if they exert CAPACITIES along and about each axis, in
+both directions.  It is at most the exact radius of any such contacts, and at least 0.  Returns NIL
+if nothing is needed.
 
 CAPACITIES  six numbers along X Y Z and about X Y Z, about the point OFFSET: WRENCH entries.
 NEED        six numbers about the box centre, the effect of the offset not included.

@@ -4,13 +4,13 @@
 (in-package :supergrip)
 
 (defstruct (verification (:include explanation))
-  "What is known of KNOWLEDGE.  Its rules can tell SITUATIONS situations apart, KINDS up to the
-rotations of the box; if these are too many, as many were drawn with SEED, which else is NIL.
-SEVERAL names the assertions that depend on more than one number of the box, so that their
-situations were searched, too; UNSEEN those that were true of no box that was looked at.  RULES is
-a list of RULE-USEs, in order; FINDINGS one of FINDINGs.
-BOXES were searched, of ALL-BOXES that there are, with GAMMA.  NUMBERS is an alist from the keys of
-a box to the numbers that were searched."
+  "What is known of KNOWLEDGE.  Its rules can tell SITUATIONS situations apart.  KINDS is how many
+these are if those that a rotation of the box turns into one another count once.  SEED is NIL, or
+the seed with which situations were drawn because there were too many.  SEVERAL names the assertions
+that depend on more than one number of the box, so that their situations were searched, too.  UNSEEN
+names those that were true of no box that was looked at.  RULES is a list of RULE-USEs, in order;
+FINDINGS is a list of FINDINGs.  BOXES were searched, of ALL-BOXES that there are, with GAMMA.
+NUMBERS is an alist from the keys of a box to the numbers that were searched."
   knowledge gamma situations kinds seed (several '()) (unseen '()) (rules '()) (findings '())
   boxes all-boxes (numbers '()))
 
@@ -189,9 +189,9 @@ and what is said if there are none.  Those from :NOTHING-SUGGESTED on are search
 ;;; For users
 
 (defun verify-knowledge (&rest arguments)
-  "(VERIFY-KNOWLEDGE [KNOWLEDGE] &KEY GAMMA STREAM): say what is wrong with the rules of
-KNOWLEDGE, by default what is in force, and where they and its grasps disagree.  Prints to
-STREAM, NIL for not at all, and returns a VERIFICATION, which holds FINDINGs."
+  "(VERIFY-KNOWLEDGE [KNOWLEDGE] &KEY GAMMA STREAM): say what is wrong with the rules of KNOWLEDGE,
+by default what is in force, and where they and its grasps disagree.  Prints to STREAM, or nothing
+if that is NIL, and returns a VERIFICATION, which holds FINDINGs."
   (if (or (null arguments) (keywordp (first arguments)))
       (apply #'verify-and-print *knowledge* arguments)
       (apply #'verify-and-print arguments)))

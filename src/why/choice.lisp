@@ -273,7 +273,7 @@ choice to change."
 
 (defun change-words (change)
   "Return four texts of CHANGE: what is to be different, the value that it would have, the value
-that it has, and what would then be chosen."
+that it has now, and what would then be chosen."
   (list (change-what change)
         (if (change-at-once change) "anything above 0" (change-text (change-to change) change))
         (change-text (change-from change) change)

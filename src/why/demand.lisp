@@ -3,10 +3,10 @@
 (in-package :supergrip)
 
 (defstruct demand
-  "How far a grasp does what is asked: FITS is CANDIDATE-FITS; SURELY and AT-MOST are radii, which
-part of the forces and torques asked for its contacts surely bear, all together and in any
-direction, and bear at most; WEAKEST is the axis, \"about Y\", on which they have the least to
-spare.  Without needs the last three are NIL."
+  "How far a grasp does what is asked.  FITS is CANDIDATE-FITS.  SURELY and AT-MOST are radii: the
+part of the forces and torques asked for, all together and in any direction, that its contacts
+surely bear, and the part that they bear at most.  WEAKEST is the axis, \"about Y\", on which they
+have the least to spare.  Without needs the last three are NIL."
   fits surely at-most weakest)
 
 (defun weakest-axis (motion need)

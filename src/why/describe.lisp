@@ -88,8 +88,9 @@ and who tests what it derives.  Returns the rule."
 (defun full-text (form) (form-text form nil))
 
 (defun describe-input (name &key (knowledge *knowledge*) (stream *standard-output*))
-  "Write to STREAM what the input may say in the words NAME: its declaration, where it is from, and
-which rules test it; or, of a preliminary assertion, its threshold.  Returns its predicate."
+  "Write the input whose words are NAME to STREAM: its declaration, where that is from, and which
+rules test it.  A preliminary assertion has a threshold in the place of a declaration.  Returns the
+predicate of the input."
   (let* ((predicate (find-named name knowledge :input))
          (words (predicate-text predicate))
          (surfaces (loop for number from 1 to (predicate-arity predicate)

@@ -77,7 +77,7 @@ may be a string, or have strings for names."
 
 (defstruct (unknown-fact (:include explanation))
   "A fact that is not known at the end of a plan.  REFUSALS says why each rule that could have
-derived it did not, of many rules for the first; MORE is how many are left out."
+derived it did not.  If these are many, it has only the first; MORE is how many are left out."
   predicate face-list refusals (more 0))
 
 (defparameter +most-refusals+ 20 "Of how many rules an answer says why they did not fire.")

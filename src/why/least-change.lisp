@@ -34,12 +34,13 @@
 decides.")
 
 (defstruct change
-  "What of the box would have to change: WHAT it is, FROM and TO, a value that does it, rounded as
-far as it can be, or two lists, of constrained faces or of facts; BOX is the changed box, PLAN the
-plan that results.  For a value, LIMIT is the nearest that does it, not rounded, and SIZE how far
-that is from FROM; THRESHOLD is NIL or, if a dimension of the gripper decides, how LIMIT stands to
-it, a string, its name and itself.  All are in the units of the box; MEASURE is what they measure,
-and DISTANCE is SIZE in cm and finger forces.  AT-ONCE is true if anything above 0 does it."
+  "What of the box would have to change.  WHAT names it.  FROM is what the box has, TO what is
+enough: two values, TO rounded as far as it can be; or two lists, of constrained faces or of facts.
+BOX is the changed box, PLAN the plan that results.  For a value, LIMIT is the nearest that is
+enough, not rounded, and SIZE how far that is from FROM.  If a dimension of the gripper decides,
+THRESHOLD is a list: how LIMIT stands to it, a string; its name; the dimension.  Otherwise it is
+NIL.  All are in the units of the box; MEASURE is what they measure, and DISTANCE is SIZE in cm and
+finger forces.  AT-ONCE is true if anything above 0 is enough."
   what from to box plan limit size threshold measure distance at-once)
 
 (defstruct goal

@@ -32,6 +32,6 @@ PUSH and TURN are the verbs: \"pushed along +Y and turned about -Z\"."
 MOTION  six numbers, velocities along X Y Z and rotations about X Y Z, as EXACT-RADIUS returns.
 NEED    six numbers, forces along X Y Z and torques about X Y Z, about the box centre.
 
-It is how the grasp is to push and turn the box where it has the least to spare.  What counts is the
-share in the wrench there, DIRECTION-SHARES."
+The grasp is to push and turn the box in this way where it has the least to spare.  Components of
+the wrench with a large share are named: see DIRECTION-SHARES."
   (motion-text (direction-shares motion need) "pushed" "turned"))

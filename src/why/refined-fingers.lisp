@@ -74,9 +74,9 @@ it."
               (refinement-quality-before best) (refinement-quality best)))))
 
 (defun explain-refinement (&optional (plan (last-plan)) &rest keys)
-  "Refine PLAN as REFINE does, with the same KEYS; print what that gained, in words, of the best
-grasp, and return its REFINEMENT.  If the plan's best was another grasp, it is told of too.  PLAN
-may be a refinement that REFINE has returned."
+  "Refine PLAN as REFINE does, with the same KEYS; print in words what this gained for the best
+refined grasp, and return its REFINEMENT.  If the plan's best was another grasp, also print what it
+gained.  PLAN may be a refinement that REFINE has returned."
   (if (refinement-p plan)
       (print-answer plan)
       (let* ((refinements (apply #'refine-grasps plan keys)) (best (first refinements)))

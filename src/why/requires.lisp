@@ -9,10 +9,11 @@
   :RULE      a rule that is to fire
   :GRASP     a grasp that is to be the best
   :POSSIBLE  a grasp that is to be possible, if it is tried.
-MET is true if it is so already.  Each of the CHANGEs in these lists does it alone: CHANGES, of
-single values, one for each value that can, the least first, relative to the greater of what it was
-and what it is then; FACES, of constrained faces, the fewest first; FACTS, of single facts that the
-rules declare.  STEPPED are the names of values that were only looked at in steps.
+MET is true if it is so already.  Three lists hold CHANGEs, each of which is enough by itself.
+CHANGES are of single values: one for each value that can do it, the least first, relative to the
+greater of the old and the new value.  FACES are of constrained faces, the fewest first.  FACTS are
+of single facts that the rules declare.  STEPPED are the names of values that were only looked at in
+steps.
 POSSIBLE, for a grasp that nothing makes the best, is the requirement of kind :POSSIBLE."
   plan kind subject met (changes '()) (faces '()) (facts '()) (stepped '())
   (possible nil))
@@ -107,9 +108,9 @@ NOT or NO among its words, or the name of a rule or a grasp, a symbol or a strin
             (t (error 'no-rule-error :name what :known (known-names knowledge)))))))
 
 (defun requires (what &optional (plan (last-plan)))
-  "Print and return the least changes of the box of PLAN with which WHAT would be so: a fact would
-hold, as '(SMALL (Y2 Y1)), a rule fire, or a grasp be the best.  Of one value, or of constrained
-faces."
+  "Print and return the least changes of the box of PLAN with which WHAT would be so.  WHAT is a
+fact that is to hold, as '(SMALL (Y2 Y1)), a rule that is to fire, or a grasp that is to be the
+best.  Each change is of one value, of constrained faces, or of a declared fact."
   (print-answer (explain-requirement what plan)))
 
 ;;; In print

@@ -3,12 +3,14 @@
 (in-package :supergrip)
 
 (defstruct (refusal (:include explanation))
-  "Why RULE did not fire, or not for what was asked about.  TRIED is the names of the grasps that
-were tried without rules, if no rule ran.  FIRED holds the rule's bindings if it did fire; STOP is
-the STOP that ended the run before it, or before its action; else NUMBER counts its CLAUSE that
-failed, BINDINGS are those that met all clauses before, BLOCKS, for a negation, the derivations of
-the facts that contradict it under each, and FIRED-FOR-OTHERS is true if it fired for something
-else."
+  "Why RULE did not fire, or not for what was asked about.  If no rule ran, TRIED has the names of
+the grasps that were tried without rules.  If RULE did fire, FIRED holds its bindings.  If the run
+ended before RULE, or before its action, STOP is the STOP that ended it.  Otherwise a clause failed:
+NUMBER   which clause it is, counted from 1
+CLAUSE   the clause
+BINDINGS those that met all clauses before it
+BLOCKS   for a negation, under each binding the derivations of the facts that contradict it.
+FIRED-FOR-OTHERS is true if RULE fired for something else than what was asked about."
   rule (tried '()) (fired '()) stop number clause (bindings '()) (blocks '()) fired-for-others)
 
 (defun memory-before (plan rule)
