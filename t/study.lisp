@@ -295,10 +295,8 @@ differences."
   "Print how long plans of BOXES by KNOWLEDGE take, at first and again, beside the shipped ones."
   (let ((first (loop for box in boxes collect (microseconds (list box) knowledge)))
         (ratios (loop for box in boxes
-                      for many = (make-list 300 :initial-element box)
-                      collect (apply #'/ (loop for known in (list knowledge supergrip:*knowledge*)
-                                               collect (loop repeat 3
-                                                             minimize (microseconds many known)))))))
+                      collect (apply #'/ (least-times (make-list 200 :initial-element box)
+                                                      knowledge supergrip:*knowledge*)))))
     (format t "~d boxes: a plan takes ~,1f ms at first, median, ~,1f for one in ten, ~,1f at most; ~
                again, it takes ~,2f times as long as a shipped one, median, ~,2f for one in ten~%"
             (length boxes) (/ (quantile 0.5 first) 1000) (/ (quantile 0.9 first) 1000)

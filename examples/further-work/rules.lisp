@@ -138,12 +138,12 @@
 ;;; Ours: the grasp across every parallel pair between two blocked faces: the hand can't be turned so
 ;;; that fingers side by side hold against turning about the line through these faces.
 (RULE LATERAL1
-  (IF (PARALLEL (s1 s2))
-      (NOT WIDE (s1 s2))
-      (OPPOSED (s3 s4))
+  (IF (OPPOSED (s3 s4))
       (CONSTRAINED (s3))
       (CONSTRAINED (s4))
-      (NOT NARROW (s3 s4)))
+      (NOT NARROW (s3 s4))
+      (PARALLEL (s1 s2))
+      (NOT WIDE (s1 s2)))
   (THEN (TRY LATERAL (s1 s2 s3 s4 ? ?))))
 
 ;;; Ours: very thin things, free on both sides, are held like a key.
@@ -155,10 +155,10 @@
 ;;; Ours: a sheet so large that the hand spans only its thin side.  It reaches far from the fingers,
 ;;; and none but fingers that lie along it hold it where it is heavy or smooth.
 (RULE LATERAL3
-  (IF (PARALLEL (s1 s2))
-      (NOT WIDE (s1 s2))
-      (LARGE (s3 s4))
-      (LARGE (s5 s6)))
+  (IF (LARGE (s3 s4))
+      (LARGE (s5 s6))
+      (PARALLEL (s1 s2))
+      (NOT WIDE (s1 s2)))
   (THEN (TRY LATERAL (s1 s2 ? ? ? ?))))
 
 ;;; Reconstructed: all parallel pairs are too wide.  What is left is a corner, which the paper lists
