@@ -124,6 +124,9 @@ NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 def check_columns(columns):
     """Raise BadFile if COLUMNS, the first row, are not what a row of parts needs."""
     found = "its columns are " + ", ".join(repr(column) for column in columns)
+    if len(columns) == 1 and ";" in columns[0]:
+        raise BadFile("its columns have ; between them; commas are needed: %s"
+                      % columns[0].replace(";", ","))
     for column in columns:
         if column not in COLUMNS:
             near = (difflib.get_close_matches(column.lower(), COLUMNS, n=1)

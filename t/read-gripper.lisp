@@ -208,7 +208,10 @@ list of a name and a text."
           (is (eql 0 (search (format nil "~a:1: GRIPPER: DIST-PINCH is missing: GRASP CLAMP, ~
                                           ~agrasps.lisp:4," gripper hand)
                              (first (problem-texts #'supergrip:reload-knowledge)))))
-          (is (= 7 (opening)) "the former stays"))))))
+          (is (= 7 (opening)) "the former stays")
+          (supergrip:reload-knowledge :hand nil)
+          (is (= 12 (opening)) "the shipped one is back")
+          (is (= (grasp-total) (length (supergrip:knowledge-grasps supergrip:*knowledge*)))))))))
 
 (test what-is-typed-changes-the-grippers-own-file
   (with-knowledge-restored

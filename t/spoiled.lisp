@@ -128,7 +128,7 @@
     (:GRASPS "((N1 0 0) (N2 0 0))" "((N1 0 0) (O2 0 0))"
      "grasps.lisp:15: GRASP G, CONTACTS: a finger is on O2, which is not one of USED-SURFACES")
     (:GRASPS "((N1 0 0) (N2 0 0))" "((N1 0) (N2 0 0))"
-     "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: a face, and its place on it along the two other axes, such as (N1 0 0)")
+     "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: one of N1 N2 O1 O2 A1 A2, and its place on it along the two other axes, such as (N1 0 0)")
     (:GRASPS "((N1 0 0) (N2 0 0))" "((N1 0 0) (N2 0 0) (N1 0 0))"
      "grasps.lisp:15: warning: GRASP G, CONTACTS: contacts 1 and 3 are at the same place: their forces add up")
     (:GRASPS "((N1 0 0) (N2 0 0))" "()"
@@ -240,7 +240,7 @@
                  "rules.lisp:16: RULE END, action 1: KEEP is (KEEP BEST)")
                reports)))
   (is (equal '("grasps.lisp:6: GRASP G, PALM: A9: PALM is one of N1 N2 O1 O2 A1 A2"
-               "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: a face, and its place on it along the two other axes, such as (N1 0 0)")
+               "grasps.lisp:15: GRASP G, CONTACTS: (N1 0) is not a contact: one of N1 N2 O1 O2 A1 A2, and its place on it along the two other axes, such as (N1 0 0)")
              (mapcar #'princ-to-string
                      (nth-value 1 (text-knowledge
                                    *good-rules*

@@ -155,8 +155,8 @@ itself."
   "Return (GRASP-FACE NODE NODE) of CONTACT, (FACE P Q), or NIL after a complaint."
   (let ((grasp-face (and (consp contact) (grasp-face-index (first contact)))))
     (cond ((or (null grasp-face) (/= (length contact) 3))
-           (complain contact "~a is not a contact: a face, and its place on it along the two other ~
-                           axes, such as (N1 0 0)" (form-text contact)))
+           (complain contact "~a is not a contact: one of N1 N2 O1 O2 A1 A2, and its place on it ~
+                              along the two other axes, such as (N1 0 0)" (form-text contact)))
           ((and used (not (member grasp-face used)))
            (complain contact "a finger is on ~a, which is not one of USED-SURFACES"
                      (svref +grasp-faces+ grasp-face)))

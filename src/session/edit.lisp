@@ -35,19 +35,20 @@ restart, returns the former."
       :report "Leave the knowledge in force as it was."
       *knowledge*)))
 
-(defun reload-knowledge (&key hand
-                           (rules (if hand
+(defun reload-knowledge (&key (hand nil hand-p)
+                           (rules (if hand-p
                                       (knowledge-file "rules.lisp" hand)
                                       (knowledge-rule-file *knowledge*)))
-                           (grasps (if hand
+                           (grasps (if hand-p
                                        (knowledge-file "grasps.lisp" hand)
                                        (knowledge-grasp-file *knowledge*)))
-                           (gripper (if hand
-                                        (hand-gripper hand)
+                           (gripper (if hand-p
+                                        (and hand (hand-gripper hand))
                                         (knowledge-gripper-file *knowledge*))))
   "Read the files of the knowledge in force again, or the files RULES, GRASPS and GRIPPER, or those
-of the folder HAND, as LOAD-KNOWLEDGE does, and put what they hold into force.  If GRIPPER is NIL,
-the gripper is that of the grasp file.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
+of the folder HAND, as LOAD-KNOWLEDGE does, and put what they hold into force.  If HAND is given
+and NIL, the files are those that are shipped.  If GRIPPER is NIL, the gripper is that of the grasp
+file.  On a KNOWLEDGE-ERROR the former knowledge stays in force."
   (let ((files (list* rules grasps (and gripper (list gripper)))))
     (put-into-force #'accept-files
                     (lambda () (apply #'build-knowledge (mapcar #'read-data-file files))))))
