@@ -49,6 +49,17 @@ of a number up to a million."
                (let ((text (plainly (decimal-text whole exponent))))
                  (if (minusp number) (concatenate 'string "-" text) text)))))))
 
+(defun number-text-rounded (number up)
+  "Return NUMBER, from 0, with as many digits as NUMBER-TEXT, rounded up if UP, else down.  Zeros at
+the end are dropped."
+  (let ((exact (exact-decimal number)))
+    (if (zerop exact)
+        "0"
+        (let* ((exponent (- (decimal-exponent exact)
+                            (if (< exact 10000000) (max 3 (decimal-exponent exact)) 3)))
+               (unit (expt 10 exponent)))
+          (number-text (* unit (if up (ceiling exact unit) (floor exact unit))))))))
+
 (defun number-texts (&rest numbers)
   "Return texts of NUMBERS, with four significant digits, or as many more as show which differ."
   (loop for digits from 4

@@ -88,63 +88,6 @@ their way; MEMORY holds what was known."
   "Return in words that FACES, names, are constrained."
   (words (joined ", " faces) (if (rest faces) " are constrained" " is constrained")))
 
-;;; What would have to change
-
-(defun let-pass-p (rule box plan)
-  "True if RULE, which ended PLAN, does not end a run for BOX.  Rules after it are not run."
-  (let* ((knowledge (plan-knowledge plan))
-         (rules (subseq (knowledge-rules knowledge) 0 (1+ (rule-index rule)))))
-    (with-plain-floats
-      (let* ((memory (start-plan box knowledge (plan-gamma plan)))
-             (stop (run-in-order rules memory
-                                 (lambda (rule action binding)
-                                   (funcall (action-function action) memory rule binding)))))
-        (give-back memory knowledge)
-        (not (and stop (eq (stop-rule stop) rule)))))))
-
-(defun beside (threshold now)
-  "Return THRESHOLD and what is just beyond it, seen from NOW: lists, each with the words before
-and after the number."
-  (let ((up (<= now threshold)))
-    (list (list threshold "" (if up " or more" " or less"))
-          (list (* threshold (if up (+ 1 1d-9) (- 1 1d-9))) (if up "more than " "less than ") ""))))
-
-(defun value-remedy (rule plan row index name threshold)
-  "Return in words to what the value of the key ROW, at INDEX, called NAME, must change past
-THRESHOLD so that RULE lets the box of PLAN pass; NIL if that does not help."
-  (let* ((box (plan-box plan)) (measure (box-key-measure row)))
-    (loop for (value before after) in (beside threshold (value-at box row index))
-          when (and (plusp value) (let-pass-p rule (box-with-at box row index value) plan))
-            return (words name " of " before
-                          (with-unit (number-text (in-units threshold measure)) measure) after))))
-
-(defun leaf-remedy (leaf rule plan)
-  "Return in words how the value that LEAF tells of would have to change so that RULE lets the box
-of PLAN pass; NIL if that alone does not help.  The second value is true if that is not known."
-  (let* ((input (prepared-row (derivation-predicate leaf) plan))
-         (dimension (and input (input-row-dimension (prepared-input-row input))))
-         (faces (derivation-face-list leaf)))
-    (flet ((value-remedy (key index name)
-             (value-remedy rule plan (find-key key) index name (prepared-input-threshold input))))
-      (cond ((null dimension) (values nil t))
-            ((= 2 (input-row-arity (prepared-input-row input)))
-             (let ((axis (face-axis (face-list-ref faces 0))))
-               (value-remedy :size axis (string (char "XYZ" axis)))))
-            ((string= "SLIPPERY-U" dimension) (value-remedy :u 0 "u"))
-            (t (values nil t))))))
-
-(defun face-remedy (faces rule plan)
-  "Return in words which of FACES, names of constrained ones, would have to be free so that RULE
-lets the box of PLAN pass: those that help alone, or else all; NIL if not even that helps."
-  (let* ((box (plan-box plan)) (now (%box-constrained box)))
-    (flet ((help-p (names)
-             (let ((set (reduce #'logior names :key (lambda (name) (ash 1 (face-index name))))))
-               (let-pass-p rule (box-with box (find-key :constrained) (logandc2 now set)) plan))))
-      (let ((helping (loop for name in faces when (help-p (list name)) collect name)))
-        (cond ((rest helping) (words "one of " (joined ", " helping) " free"))
-              (helping (words (first helping) " free"))
-              ((and (rest faces) (help-p faces)) (words "all of " (joined ", " faces) " free")))))))
-
 (defparameter +most-leaves+ 4
   "Of how many things of the box a reason tells, constrained faces apart.")
 
@@ -170,30 +113,6 @@ went by none."
                                      (list (plain-text "~d more of the kind"
                                                        (- (length leaves) +most-leaves+))))
                                 (and faces (list (blocked-text faces)))))))))
-
-(defun refusal-remedies (rule plan)
-  "Return the single changes with which RULE, which ended PLAN, lets the box pass, each in words.
-The second value is true if there may be others."
-  (let ((*units* (%box-units (plan-box plan))))
-    (multiple-value-bind (leaves faces) (refusal-parts rule plan)
-      (let ((open (nthcdr +most-leaves+ leaves)) (remedies '()))
-        (loop for leaf in leaves repeat +most-leaves+
-              do (multiple-value-bind (remedy unknown) (leaf-remedy leaf rule plan)
-                   (when remedy (push remedy remedies))
-                   (when unknown (setf open t))))
-        (let ((free (and faces (face-remedy faces rule plan))))
-          (when free (push free remedies)))
-        (values (nreverse remedies) (or open (and (null leaves) (null faces))))))))
-
-(defun remedy-sentence (plan)
-  "Return in a sentence which single change lets the box of PLAN pass the rule that refused it; NIL
-if no rule did, or that is not known."
-  (let ((stop (plan-stop plan)))
-    (when (and stop (eq (stop-verdict stop) :cant))
-      (multiple-value-bind (remedies open) (refusal-remedies (stop-rule stop) plan)
-        (cond (remedies (plain-text "To pass that rule it takes ~{~a~^, or ~}" remedies))
-              (open nil)
-              (t "To pass that rule it takes more than one change"))))))
 
 ;;; The reason
 
