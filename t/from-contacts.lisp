@@ -59,6 +59,21 @@
              (grasp-reports :offset "FROM-FINGERS")))
   (is (null (grasp-reports :wrench "FROM-CONTACTS" :twist "from-contacts"))))
 
+(test what-is-computed-waits-for-the-parts-that-it-needs
+  "A part that is wrong is reported, and nothing is computed of it."
+  (loop for changes in '((:palm "A1") (:palm "Q") (:used-surfaces "(N1 N2)") (:used-surfaces "(Q)")
+                         (:used-surfaces nil) (:contacts "((N1 0))") (:contacts "((Q 0 0) (N2 0 0))")
+                         (:contacts "((N1 P 0) (N2 0 0))") (:offset "(LIST 0 0 Q 0 0 0)")
+                         (:offset nil) (:used-surfaces "(N1 N2)" :palm nil))
+        do (is (= 1 (length (apply #'grasp-reports :twist "FROM-CONTACTS" :wrench "FROM-CONTACTS"
+                                   changes)))
+               "~a" changes)
+           (unless (member :offset changes)
+             (is (= 1 (length (apply #'reach-reports
+                                     (append changes
+                                             (list :conditions (format nil "(T)~% REACH (A 4)"))))))
+                 "~a beside REACH" changes))))
+
 ;;; What is derived
 
 (defun shipped-and-derived (name)

@@ -263,7 +263,8 @@ stands for one that is absent beside REACH.  PARSE is a function of any other va
                            (buried-word key value)))
                 ((not (lone-word value)) (funcall parse value (placement-scope placement)))
                 ((not (part-word key value)) (complain-of-word key value))
-                ((and (placement-contacts placement) (placement-offset placement))
+                ((and (placement-palm placement) (placement-contacts placement)
+                      (placement-offset placement))
                  (funcall (third (part-word key value)) placement value))))))))
 
 (defun derived-parts (given offset-form wrench twist contacts)
