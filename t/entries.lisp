@@ -52,6 +52,18 @@
 (defun nearly-p (expected number)
   (< (abs (- number expected)) 1d-5))
 
+(test more-friction-never-takes-from-an-entry
+  "However much it is: one finger presses on X1, one on X2, and one more on X1."
+  (let ((before nil))
+    (dolist (u '(0.5d0 2 1000 1d4 1d5 1d6 1d9 1d18 1d60))
+      (multiple-value-bind (least most)
+          (twelve-of '(((2 1 0) (-1 0 0)) ((-2 0.3d0 1) (1 0 0)) ((2 0.3d0 0.3d0) (-1 0 0))) u 0.2d0)
+        (is (loop for low in least for high in most always (<= (* 0.99999d0 high) low high)))
+        (is (every #'plusp least))
+        (is (every (lambda (now before) (>= now (* 0.99999d0 before))) least (or before least))
+            "u ~a" u)
+        (setf before least)))))
+
 (test a-bound-is-an-exertion
   ;; What is certified, cone programming of another kind confirms: CONTACT-FORCES finds the forces.
   (dolist (maxima (every-nth 9 (remove nil (read-maxima) :key (lambda (m) (getf m :closed)))))

@@ -357,6 +357,14 @@ numbers."
   ;; Nothing resists a turn about the line between two fingers.
   (let ((plan (supergrip:try-grasp "PINCH-2-PARALLEL" (changed-box :v 0) :index :exact)))
     (is (search "open: the contacts don't close on this shape with any friction"
+                (supergrip:plan-reason plan))))
+  ;; A form may say that friction takes from what a grasp exerts.
+  (let ((plan (supergrip:plan
+               (changed-box :u 2)
+               :knowledge (text-knowledge *good-rules*
+                                          (format nil "~a~a" *small-gripper*
+                                                  (grasp-text :wrench "(1 (- 1 u) 1 1 1 1)"))))))
+    (is (search "open: the contacts don't close on this shape with u of 2; with 0.5 they do"
                 (supergrip:plan-reason plan)))))
 
 (test what-contacts-do-not-hold-is-told-with-what-they-bear

@@ -151,6 +151,13 @@
     (is (search "WRENCH is what the contacts exert" text))
     (is (search "TWIST is how well" text))))
 
+;;; Any friction
+
+(test a-box-that-sticks-like-glue-is-planned-for
+  (let ((knowledge (further-work)))
+    (dolist (u '(100 1d5 1d12 1d60))
+      (is (supergrip:plan-best (supergrip:plan (changed-box :u u) :knowledge knowledge)) "u ~a" u))))
+
 ;;; The way of gravity counts
 
 (defun row-box (weight &rest others)

@@ -20,6 +20,14 @@ STEP what to go."
   (q (make-six) :type six) (w (make-six) :type six) (step (make-six) :type six)
   (rows 0 :type fixnum) (columns nil :type doubles) (triangle (make-doubles 49) :type doubles))
 
+(defconstant +most-pressed+ (- 1d0 (scale-float 1d0 -53)) "The greatest number below 1.")
+
+(declaim (inline root))
+(defun root (number)
+  "Return the square root of NUMBER, 0 or more; a great number if it is no number."
+  (declare (double-float number))
+  (if (>= number 0d0) (sqrt (the not-negative number)) 1d300))
+
 (declaim (inline pressing))
 (defun pressing (y slip twist mu)
   "Return how much a finger presses, above 0 and below 1, where it would move by Y along its normal,
@@ -114,7 +122,10 @@ to THIRD, and c there be REST."
          (one (row-dot rows (+ start 6) q)) (two (row-dot rows (+ start 12) q))
          (turn (row-dot rows (+ start 18) q))
          (slide (sqrt (the not-negative (+ (* one one) (* two two)))))
-         (n (pressing (row-dot rows start q) (* u slide) (* v (abs turn)) (the not-negative mu)))
+         ;; By rounding, a finger may press as much as it can, or not at all.
+         (n (max 1d-100 (min +most-pressed+
+                             (pressing (row-dot rows start q) (* u slide) (* v (abs turn))
+                                       (the not-negative mu)))))
          (c (if (plusp slide) (/ one slide) 1d0)) (s (if (plusp slide) (/ two slide) 0d0)))
     (declare (double-float mu c s) (type not-negative n))
     (multiple-value-bind (force by-n by-slide by-across) (friction-part u slide n mu)
@@ -147,7 +158,7 @@ of it.  TRIANGLE says how they were made, and what of the others they take."
         (dotimes (i count)
           (let ((part (aref columns (+ start i))))
             (incf square (* part part))))
-        (let ((length (sqrt (the not-negative square))))
+        (let ((length (root square)))
           (setf (aref triangle (* 8 j)) length)
           (when (> length 0d0)
             (dotimes (i count)
@@ -190,7 +201,7 @@ shorter than 1."
   (dotimes (i (grip-count (b-grip b)))
     (add-finger b i))
   (multiple-value-bind (square growth) (solve-step b)
-    (let* ((length (sqrt (the not-negative square)))
+    (let* ((length (root square))
            (part (if (> length 0.25d0) (/ (+ 1d0 length)) 1d0)))
       (dotimes (k 6)
         (incf (aref (b-q b) k) (* part (aref (b-step b) (column-of k (b-k b))))))

@@ -70,6 +70,11 @@ CLOSED-AT tells of a friction whether it does."
                      (setf low middle))))
       (values high low))))
 
+(defun lesser-closing-friction (u closed-at)
+  "Return a friction below U that closes a grasp, or NIL.  More friction only helps; but forms may
+say otherwise, and next to very much of it a finger's pressing counts for nothing."
+  (find-if (lambda (less) (and (< less u) (funcall closed-at less))) '(100d0 10d0 1d0 0.5d0)))
+
 (defun describe-open (workspace closed-at)
   "Return why a candidate is open, whose figures WORKSPACE holds; CLOSED-AT as for
 CLOSING-FRICTION."
@@ -77,11 +82,17 @@ CLOSING-FRICTION."
     (if (funcall closed-at u)
         "a form of TWIST, or the index, has no value in range"
         (multiple-value-bind (needed too-little) (closing-friction u closed-at)
-          (if needed
-              (apply #'format nil
-                     "open: the contacts don't close on this shape; needs u > ~a, has ~a"
-                     (number-texts too-little u))
-              "open: the contacts don't close on this shape with any friction")))))
+          (let ((less (and (not needed) (lesser-closing-friction u closed-at))))
+            (cond (needed
+                   (apply #'format nil
+                          "open: the contacts don't close on this shape; needs u > ~a, has ~a"
+                          (number-texts too-little u)))
+                  (less
+                   (apply #'format nil
+                          "open: the contacts don't close on this shape with u of ~a; ~
+                           with ~a they do"
+                          (number-texts u less)))
+                  (t "open: the contacts don't close on this shape with any friction")))))))
 
 (defun bounded (number)
   "Return NUMBER, or the greatest double if it is infinite: a replay traps nothing."
