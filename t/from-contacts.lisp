@@ -30,6 +30,8 @@
           ("(A2 4)" "REACH: A2 is not an axis (did you mean A?): REACH is along N, O or A")
           ("(A 4 A 5)" "REACH: the reach along A is given twice")
           ("(A 0)" "REACH: the reach along A is 0, but must be above 0")
+          ("(A (- FINGER-LENGTH 5))" "REACH: the reach along A is (- FINGER-LENGTH 5), -2, but must be above 0")
+          ("(A (LET* ((x 3)) (- x 3)))" "REACH: the reach along A is (LET* ((X 3)) (- X 3)), 0, but must be above 0")
           ("(N 4)" "REACH: the hand does not come over N1 or N2, since both are used; leave the reach along N out")
           ("(O 4)" "REACH: the hand does not come over O1 or O2, since neither is used; leave the reach along O out")
           ("(A FINGER-LENGHT)" "REACH: FINGER-LENGHT is not a length (did you mean FINGER-LENGTH?); a reach is FROM-FINGERS, a number, or a form of the gripper's dimensions")

@@ -177,6 +177,16 @@
     (is (eq supergrip::*plan* (supergrip:refinement-plan (supergrip:refine))))
     (is (equal (printed (supergrip:explain-refinement supergrip::*plan*))
                (printed (supergrip:explain-refinement)))))
+  (let ((supergrip::*plan* (pencil-plan)))
+    (is (equal (princ-to-string (supergrip:refine supergrip::*plan* :count 1 :regions 20))
+               (princ-to-string (supergrip:refine :count 1 :regions 20))))
+    (is (equal (printed (supergrip:explain-refinement supergrip::*plan* :count 1 :regions 20))
+               (printed (supergrip:explain-refinement :count 1 :regions 20))))
+    (loop for (keys text) in
+          '(((:grasps 1) "GRASPS is not a key of REFINE: keys are :COUNT, :GAP, :REGIONS")
+            ((1 2) "2 is not a key of REFINE: keys are :COUNT, :GAP, :REGIONS; a value goes after its key, as in (refine plan :count 1)")
+            ((:count) "there is no value after the key :COUNT of REFINE"))
+          do (is (equal text (error-text (apply #'supergrip:refine keys))))))
   (let ((supergrip::*plan* nil))
     (is (equal "there is no plan yet: call (forward-chain) first"
                (error-text (supergrip:refine))))))

@@ -47,15 +47,32 @@ DESCRIBE-GRASP."
   (cond ((namep value) value)
         ((and (consp value) (namep (first value)) (null (rest value))) (first value))))
 
-(defun warn-of-long-reach (axis reach scope)
-  "Warn if REACH, along AXIS, is a number above all lengths of the gripper in SCOPE."
-  (let ((hand (longest-dimension (loop for (name . node) in (scope-dimensions scope)
+(defun constant-reach (reach scope)
+  "Return the number that REACH, a number or a form in SCOPE, is for every box; NIL if it is none, or
+is wrong, which is complained of elsewhere."
+  (let ((node (values (with-problems (parse-form reach scope :number)))))
+    (and node (constant-p node) (constant-value node))))
+
+(defun check-reach (axis reach scope)
+  "Complain if REACH, along AXIS, is the same for every box and not above 0; warn if it is above all
+lengths of the gripper in SCOPE.  Return true if it is good."
+  (let ((number (constant-reach reach scope)) (name (svref +axis-names+ axis))
+        (hand (longest-dimension (loop for (name . node) in (scope-dimensions scope)
                                        collect (cons name (constant-value node))))))
-    (when (and hand (realp reach) (> reach (cdr hand)))
-      (complain *form* '(:warning "the reach along ~a is ~a cm, and the hand's greatest dimension ~
-                                   is ~a, ~a; where the hand reaches that far, let the gripper ~
-                                   name how far")
-                (svref +axis-names+ axis) (form-text reach) (car hand) (number-text (cdr hand))))))
+    (cond ((null number) t)
+          ((not (plusp number))
+           (complain reach "the reach along ~a is ~a, but must be above 0" name
+                     (if (realp reach)
+                         (form-text reach)
+                         (format nil "~a, ~a" (form-text reach) (number-text number)))))
+          ((and hand (> number (cdr hand)))
+           (complain *form* '(:warning "the reach along ~a is ~a cm, and the hand's greatest ~
+                                        dimension is ~a, ~a; where the hand reaches that far, let ~
+                                        the gripper name how far")
+                     name (if (realp reach) (form-text reach) (number-text number)) (car hand)
+                     (number-text (cdr hand)))
+           t)
+          (t t))))
 
 (defun within-form-p (name form)
   "True if NAME, a string, stands in the list FORM."
@@ -226,10 +243,7 @@ the distance of the bases, and the places of the fingers, three each."
               do (cond ((null axis)
                         (return (complain-of-axis name value)))
                        ((/= 1 (count axis entries :key #'car))
-                        (return (complain value "the reach along ~a is given twice" name)))
-                       ((and (realp reach) (not (plusp reach)))
-                        (return (complain value "the reach along ~a is ~a, but must be above 0"
-                                          name (form-text reach)))))
+                        (return (complain value "the reach along ~a is given twice" name))))
               finally (return entries)))))
 
 (defun side-reached (axis placement)
@@ -274,8 +288,8 @@ than the distance between the bases.  Source: the paper, OFFSET of PINCH-2-PARAL
           ((within-form-p +reach-word+ reach)
            (complain reach "~a: ~a stands alone, in place of a length" (form-text reach)
                      +reach-word+))
-          (t (warn-of-long-reach axis reach (placement-scope placement))
-             `(:posit (:- (:/ ,(distance-form axis) 2) ,reach))))))
+          ((check-reach axis reach (placement-scope placement))
+           `(:posit (:- (:/ ,(distance-form axis) 2) ,reach))))))
 
 (defun reach-form (value placement)
   "Return the form of the OFFSET that REACH VALUE leaves, or NIL after a complaint."

@@ -144,6 +144,18 @@ EVENT-FACT."
   "Return all that happened in PLAN, in order: candidates, and events (see PLAN-EVENTS)."
   (copy-list (plan-entries plan)))
 
+(defun checked-keys (arguments function keys example)
+  "Return ARGUMENTS, keys and values for FUNCTION, if each key is one of KEYS.  EXAMPLE is a right
+call."
+  (loop for (key . rest) on arguments by #'cddr
+        unless (member key keys)
+          do (refuse-argument "~a is not a key of ~a: keys are ~{:~a~^, ~}~@[; a value goes ~
+                               after its key, as in ~a~]" (form-text key) function keys
+                              (and (not (namep key)) example))
+        unless rest
+          do (refuse-argument "there is no value after the key :~a of ~a" key function))
+  arguments)
+
 (defun need-plan (plan)
   (if (plan-p plan) plan (error 'no-plan-error :given plan)))
 

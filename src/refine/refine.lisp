@@ -185,16 +185,25 @@ place there is chosen so that their ways are short."
                              collect (refine-candidate candidate plan (as-double gap) regions)))))
     (stable-sort refinements #'> :key #'refinement-quality)))
 
-(defun refine (&optional (plan (last-plan)) &rest keys)
-  "Move the fingers of the best grasps of PLAN, so that their exact quality is as great as possible,
-and return the best REFINEMENT, or NIL if the plan has no grasp.  The second value is the list of
-all, the best first.  KEYS are :COUNT, how many grasps, 3 by default; :GAP, 0.02 by default;
-:REGIONS, 1000 by default.
+(defun plan-and-keys (arguments function)
+  "Return the plan that ARGUMENTS, those of FUNCTION, begin with, or else the last one; and the keys
+after it."
+  (let ((given (and arguments (not (keywordp (first arguments))))))
+    (values (if given (first arguments) (last-plan))
+            (checked-keys (if given (rest arguments) arguments) function '(:count :gap :regions)
+                          (plain-text "(~(~a~) plan :count 1)" function)))))
+
+(defun refine (&rest arguments)
+  "(REFINE [PLAN] &KEY COUNT GAP REGIONS): move the fingers of the best grasps of PLAN, by default
+the last one, so that their exact quality is as great as possible, and return the best REFINEMENT,
+or NIL if the plan has no grasp.  The second value is the list of all, the best first.  COUNT is how
+many grasps, 3 by default; GAP is 0.02 by default, REGIONS 1000.
 
 The exact quality is Q with the exact radius (see EXACT-RADIUS) in the place of u_w; u_t, a
 judgement of the grasp, stays.  Fingers stay on their faces and within what hand and faces allow.
 They move only if the new places are surely better: the certified radius of the new places is above
 the upper value of the old ones.  The search ends when it is proved that no places are better by
 more than the share GAP, or after REGIONS regions of places."
-  (let ((refinements (apply #'refine-grasps plan keys)))
-    (values (first refinements) refinements)))
+  (multiple-value-bind (plan keys) (plan-and-keys arguments 'refine)
+    (let ((refinements (apply #'refine-grasps plan keys)))
+      (values (first refinements) refinements))))

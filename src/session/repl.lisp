@@ -32,18 +32,6 @@ weight (see PLAN); :STREAM is where to print, NIL for not at all; :TRACE says ho
                        'forward-chain '(:box :knowledge :gamma :index :margin :stream :trace :step)
                        "(forward-chain box :gamma 0.3)")))
 
-(defun checked-keys (arguments function keys example)
-  "Return ARGUMENTS, keys and values for FUNCTION, if each key is one of KEYS.  EXAMPLE is a right
-call."
-  (loop for (key . rest) on arguments by #'cddr
-        unless (member key keys)
-          do (refuse-argument "~a is not a key of ~a: keys are ~{:~a~^, ~}~@[; a value goes ~
-                               after its key, as in ~a~]" (form-text key) function keys
-                              (and (not (namep key)) example))
-        unless rest
-          do (refuse-argument "there is no value after the key :~a of ~a" key function))
-  arguments)
-
 (defun chain-box (&key ((:box given) *box*) (knowledge *knowledge*) (gamma *gamma*)
                     (index :paper) margin (stream *standard-output*) ((:trace level) *trace-level*)
                     step)

@@ -73,15 +73,16 @@ it."
               (refinement-moved-p best)
               (refinement-quality-before best) (refinement-quality best)))))
 
-(defun explain-refinement (&optional (plan (last-plan)) &rest keys)
-  "Refine PLAN as REFINE does, with the same KEYS; print in words what this gained for the best
-refined grasp, and return its REFINEMENT.  If the plan's best was another grasp, also print what it
-gained.  PLAN may be a refinement that REFINE has returned."
-  (if (refinement-p plan)
-      (print-answer plan)
-      (let* ((refinements (apply #'refine-grasps plan keys)) (best (first refinements)))
-        (if best
-            (progn (print-answer best)
-                   (write-plans-best best refinements *standard-output*))
-            (format t "There is no grasp to refine: ~a~%" (plan-reason plan)))
-        best)))
+(defun explain-refinement (&rest arguments)
+  "Refine a plan as REFINE does, with the same ARGUMENTS; print in words what this gained for the
+best refined grasp, and return its REFINEMENT.  If the plan's best was another grasp, also print
+what it gained.  In place of the plan may stand a refinement that REFINE has returned."
+  (multiple-value-bind (plan keys) (plan-and-keys arguments 'explain-refinement)
+    (if (refinement-p plan)
+        (print-answer plan)
+        (let* ((refinements (apply #'refine-grasps plan keys)) (best (first refinements)))
+          (if best
+              (progn (print-answer best)
+                     (write-plans-best best refinements *standard-output*))
+              (format t "There is no grasp to refine: ~a~%" (plan-reason plan)))
+          best))))
