@@ -74,6 +74,21 @@ the world as before."
                          (laid-boxes 400 42)))
       "upright ones, too: on their side they are the same as with other names for the faces"))
 
+(defun candidate-count-fault (box knowledge)
+  "Return how the frame of BOX must be turned for another number of candidates, or NIL."
+  (flet ((candidates (box)
+           (length (supergrip:plan-candidates (supergrip:plan box :knowledge knowledge)))))
+    (loop with count = (candidates box)
+          for matching in *rotations*
+          unless (= count (candidates (turn-laid box matching)))
+            return (supergrip::matching-names matching))))
+
+(test on-its-side-a-box-has-as-many-candidates-as-with-other-names-for-its-faces
+  "Grasps that are the same are tried once, along whichever axis of the box gravity is."
+  (dolist (knowledge (list supergrip:*knowledge* (further-work)))
+    (is (null (first-fault (lambda (box) (candidate-count-fault box knowledge))
+                           (random-boxes 60 49))))))
+
 (defun best-quality-fault (box)
   "Return how the best quality of BOX changes when its frame is turned, if it does."
   (let ((quality (supergrip:plan-quality (supergrip:plan box))))

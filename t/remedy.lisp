@@ -1,4 +1,4 @@
-;;;; remedy.lisp -- what lets a box pass the rule that refused it: it does, and nothing else is denied.
+;;;; remedy.lisp -- what lets a box pass the rule that refused it is so, and nothing else is denied.
 
 (in-package :supergrip-test)
 (define-suite remedy

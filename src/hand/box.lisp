@@ -10,7 +10,8 @@
 FRICTION the coefficient u; SOFT-FRICTION v, that of the soft finger's torque, in cm; CONSTRAINED a
 set of faces; FORCE and VELOCITY what the task needs, 0 to 1, along and about X Y Z; FACTS a list of
 BOX-FACTs.  DOWN is the unit vector of gravity, MASS-CENTRE the centre of mass from the box centre;
-PLAIN is true if these are -Z and the box centre.
+PLAIN is true if these are -Z and the box centre; GRAVITY-AXIS is the axis, 0 to 2, that gravity is
+along, if it acts at the box centre, or NIL.
 UNITS are those that its description counts in, NIL for cm and finger forces.  Of a box in N, or
 whose mass is given, a finger force is 1 N until a plan knows the gripper: see BOX-FOR-GRIPPER."
   (name nil :read-only t)
@@ -27,7 +28,8 @@ whose mass is given, a finger force is 1 N until a plan knows the gripper: see B
   (line nil :read-only t)
   (down nil :type three :read-only t)        ; see pose.lisp
   (mass-centre nil :type three :read-only t)
-  (plain t :type boolean :read-only t))
+  (plain t :type boolean :read-only t)
+  (gravity-axis 2 :type (or null (integer 0 2)) :read-only t))
 
 (defun box-name (box) "Return the name of BOX, a string, or NIL." (%box-name box))
 (defun box-size (box) "Return the sizes of BOX along X Y Z, a list, in cm."

@@ -94,9 +94,11 @@ and would tell apart what is the same.")
 (defun gravity-slots (others)
   "Return the slots of a box that say what gravity does to it, a plist; OTHERS has its pose and
 centre."
-  (let ((down (down-of (getf others :pose))) (centre (getf others :centre +box-centre+)))
-    (list :down down :mass-centre centre
-          :plain (and (equalp down +upright+) (equalp centre +box-centre+)))))
+  (let* ((down (down-of (getf others :pose))) (centre (getf others :centre +box-centre+))
+         (middle (equalp centre +box-centre+)))
+    (list :down down :mass-centre centre :plain (and middle (equalp down +upright+))
+          :gravity-axis (and middle (= 1 (count 0d0 down :test #'/=))
+                             (position 0d0 down :test #'/=)))))
 
 (defun gravity-on (box)
   "Return the wrench of the weight of BOX about its centre, an array of six."

@@ -9,8 +9,9 @@ registers; PLACES holds the same as axes (0 to 2) and registers in turn, without
 faces are normal to.  The other parts are PROGRAMs; COMPARISONS is an alist from the comparisons in
 CONDITIONS-NODE to those of their operands.  DRAFT has the nodes of all parts.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
-SAME, for each matching, the set of those that are the same grasp, itself included; SAME-CENTRE, of
-those of them whose grasp centre is surely the same place of the box."
+SAME, for each matching, the set of those that are the same grasp on a box that stands upright,
+itself included; SAME-LYING such sets where gravity is along X, Y and Z; SAME-CENTRE, of those of
+them whose grasp centre is surely the same place of the box."
   (name "" :type string :read-only t) (index 0 :type fixnum :read-only t)
   (definition nil :read-only t) (draft nil :read-only t)
   (file nil :read-only t) (line nil :read-only t) (comment '() :read-only t)
@@ -26,6 +27,7 @@ those of them whose grasp centre is surely the same place of the box."
    :type (simple-array (unsigned-byte 24) (64)) :read-only t)
   (same (make-array 24 :element-type '(unsigned-byte 24))
    :type (simple-array (unsigned-byte 24) (24)) :read-only t)
+  (same-lying #() :type simple-vector :read-only t)
   (same-centre (make-array 24 :element-type '(unsigned-byte 24))
    :type (simple-array (unsigned-byte 24) (24)) :read-only t))
 
@@ -384,11 +386,11 @@ third-turn moves the palm, which a TWIST that is computed tells apart."
                  (every #'in-the-middle-p contacts)))
          (or (eq kind :half-turn) (not (computed-p (draft-twist draft)))))))
 
-(defun same-upright-p (draft kind matching)
-  "True if a turn of KIND leaves the grasp of DRAFT in MATCHING the same where gravity points along
-Z.  A half-turn about Z does; so does one that exchanges up and down if the contacts are mirror
-images."
-  (let ((vertical (position 2 (matching-axes matching) :end 3)))
+(defun same-lying-p (draft kind matching axis)
+  "True if a turn of KIND leaves the grasp of DRAFT in MATCHING the same where gravity is along the
+box's AXIS, 0 to 2.  A half-turn about that axis does; so does one that exchanges up and down if the
+contacts are mirror images."
+  (let ((vertical (position axis (matching-axes matching) :end 3)))
     (or (same-anyhow-p draft kind)
         (and (eq kind :half-turn)
              (or (= vertical 2) (mirrored-p (draft-contacts draft) (list vertical)))))))
@@ -406,6 +408,12 @@ far as its faces show, and as SAME-P, a function of the kind of a turn and a mat
                                    collect (ash 1 (matching-index (turned matching turn))))
                            :initial-value (ash 1 (matching-index matching)))))
     sets))
+
+(defun same-where-gravity-is (draft axis)
+  "Return, for each matching of the grasp of DRAFT, the set of those that are the same grasp where
+gravity is along the box's AXIS, 0 to 2."
+  (same-matchings (draft-used draft) (mapcar #'first (draft-contacts draft))
+                  (lambda (kind matching) (same-lying-p draft kind matching axis))))
 
 (defun usable-matchings (used)
   "Return, for each set of box faces, the set of the matchings in which none of the grasp faces USED
@@ -432,7 +440,8 @@ LAYOUT."
          (fingers (mapcar #'first contacts))
          (conditions (draft-conditions draft))
          (positions (numbers-program (loop for (nil . place) in contacts append place) layout))
-         (places (coerce (program-results positions) 'list)))
+         (places (coerce (program-results positions) 'list))
+         (same (coerce (loop for axis below 3 collect (same-where-gravity-is draft axis)) 'vector)))
     (make-grasp
      :name (draft-name draft) :index index :definition (draft-form draft)
      :draft draft :file (draft-file draft)
@@ -450,8 +459,7 @@ LAYOUT."
      :wrench (six-program (draft-wrench draft) layout)
      :twist (six-program (draft-twist draft) layout)
      :usable (usable-matchings (draft-used draft))
-     :same (same-matchings (draft-used draft) fingers
-                           (lambda (kind matching) (same-upright-p draft kind matching)))
+     :same (svref same 2) :same-lying same
      :same-centre (same-matchings (draft-used draft) fingers
                                   (lambda (kind matching)
                                     (declare (ignore matching))

@@ -75,9 +75,11 @@ of WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre
 
 (defun same-by-axes (grasp box)
   "Return, for each matching of GRASP, the set of those that six numbers, one an axis, do not tell
-apart on BOX.  Where gravity is plain, it does not matter to which side the grasp centre lies."
+apart on BOX.  Where gravity is along an axis through the middle, it does not matter to which side
+the grasp centre lies."
   (declare (type grasp grasp) (type box box))
-  (if (%box-plain box) (grasp-same grasp) (grasp-same-centre grasp)))
+  (let ((axis (%box-gravity-axis box)))
+    (if axis (svref (grasp-same-lying grasp) axis) (grasp-same-centre grasp))))
 
 (setf *indices* (with-row (make-index :paper #'same-by-axes (lambda (workspace log)
                                                             (declare (ignore log))
