@@ -166,6 +166,13 @@
                "The exact radius of forces is 1.598 to 1.600, proved."
                "No legal places of these fingers give a Q above 1.114: 0.2 % more at most.")
              (printed (supergrip:explain-refinement (supergrip:refine (all-places-alike-plan))))))
+  (is (equal "PINCH-3-PARALLEL (Y2 Y1 X2 X1 Z2 Z1): with its fingers moved, the exact Q stays 0.625."
+             (first (printed (supergrip:explain-refinement
+                              (supergrip:plan (paper-box) :gamma 1) :count 1 :regions 20))))
+      "velocities alone count")
+  (is (equal '("is 0.760, not 0.750: 1.3 % more" "is 0.75021, not 0.75018: 0.0 % more" "stays 0.750")
+             (loop for (from to) in '((0.75d0 0.76d0) (0.75018d0 0.75021d0) (0.75d0 0.75d0))
+                   collect (supergrip::change-text from to))))
   (is (search "the task needs no force" (first (printed (supergrip:explain-refinement
                                                          (supergrip:plan (changed-box :force-needed '(0 0 0 0 0 0))))))))
   (is (eql 0 (search "There is no grasp to refine: "

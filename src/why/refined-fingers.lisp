@@ -26,6 +26,15 @@ others."
       (plain-text "~,1f %" (* 100 (/ (- to from) from)))
       "any part"))
 
+(defun change-text (from to)
+  "Return in words that a quality is TO, and was FROM."
+  (if (= from to)
+      (plain-text "stays ~,3f" to) ; where velocities alone count
+      (let ((texts (list (three-decimals to) (three-decimals from))))
+        (plain-text "is ~{~a, not ~a~}: ~a more"
+                    (if (equal (first texts) (second texts)) (number-texts to from) texts)
+                    (gain-text from to)))))
+
 (defun write-radius (words radius stream)
   (destructuring-bind (lower upper) radius
     (format stream "~a ~a~@[, proved~*~]" words
@@ -47,8 +56,7 @@ others."
            (format stream "the task needs no force, or it is too large to compute with, so the ~
                            fingers stay.~%"))
           ((refinement-moved-p answer)
-           (format stream "with its fingers moved, the exact Q is ~,3f, not ~,3f: ~a more.~%" after
-                   before (gain-text before after))
+           (format stream "with its fingers moved, the exact Q ~a.~%" (change-text before after))
            (write-moves answer stream))
           (t (format stream "no better places were found, so the fingers stay; the exact Q is ~
                              ~,3f.~%" after)))
