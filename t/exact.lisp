@@ -27,6 +27,40 @@
         (unless (null (dropped plan)) (fail "~s ~s" index box)))))
   (pass))
 
+(defun moving-contacts-knowledge ()
+  "Return knowledge of a grasp whose contacts vary with the box, as do its WRENCH and its TWIST."
+  (text-knowledge *good-rules*
+                  (format nil "~a~a" *small-gripper*
+                          (grasp-text :contacts "((N1 (/ (DIST '(O1 O2)) 5) 0)
+                                                  (N1 (- (/ (DIST '(O1 O2)) 4)) (/ (DIST '(A1 A2)) 7))
+                                                  (N2 0 (/ (DIST '(A1 A2)) 6)))"
+                                      :wrench "(1 (SQRT (+ u 1)) (* 3 u) (+ v 0.3) (SQRT (+ v 2))
+                                                (/ 9 (DIST '(N1 N2))))"
+                                      :twist "((SQRT (+ 1 v)) (* u 0.9) 1 (/ 3 (DIST '(O1 O2))) 1 1)"))))
+
+(test contacts-are-where-they-are-whatever-was-computed-after-them
+  "Exact statics and refining know them as CANDIDATE-CONTACTS does."
+  (let ((knowledge (moving-contacts-knowledge)) (compared 0))
+    (dolist (size '((3 4 5) (6 2 3) (5 5 2)))
+      (dolist (index '(:paper :exact))
+        (let ((plan (supergrip:plan (with-entries *good-box* :size size :constrained '(:z2))
+                                    :knowledge knowledge :index index)))
+          (dolist (candidate (supergrip:plan-possible plan))
+            (incf compared)
+            (multiple-value-bind (upper lower) (supergrip:candidate-exact-radius candidate plan)
+              (multiple-value-bind (true-upper true-lower)
+                  (exact-radius-of (candidate-case candidate plan (needed plan)))
+                (is (<= lower (+ true-upper 1d-9)))
+                (is (<= true-lower (+ upper 1d-9))))))
+          (let* ((refinement (supergrip:refine plan :count 1 :regions 5))
+                 (candidate (supergrip:refinement-candidate refinement)))
+            (multiple-value-bind (upper lower)
+                (exact-radius-of (candidate-case candidate plan (needed plan)))
+              (destructuring-bind (sure most) (supergrip:refinement-radius-before refinement)
+                (is (<= sure (+ upper 1d-9)))
+                (is (<= lower (+ most 1d-9)))))))))
+    (is (> compared 8))))
+
 (test an-exact-plan-agrees-with-itself
   (for-random-boxes (box 150 32)
     (let* ((plan (exact-plan box)) (best (supergrip:plan-best plan)))

@@ -107,12 +107,9 @@ positions in cm, the normals pointing inward; and :FINGER, the finger's name in 
     (contacts-of candidate workspace)))
 
 (defun contacts-of (candidate workspace)
-  "Return what CANDIDATE-CONTACTS does; WORKSPACE holds the figures of CANDIDATE."
+  "Return what CANDIDATE-CONTACTS does; WORKSPACE holds the figures of CANDIDATE.  Where the fingers
+are is computed anew: the registers hold it only until another program is run."
   (execute (grasp-positions (%candidate-grasp candidate)) (workspace-registers workspace))
-  (workspace-contacts candidate workspace))
-
-(defun workspace-contacts (candidate workspace)
-  "Return what CANDIDATE-CONTACTS does; WORKSPACE holds where the fingers of CANDIDATE are."
   (loop with registers of-type registers = (workspace-registers workspace)
         with matching = (%candidate-matching candidate)
         for (grasp-face p q) in (grasp-contacts (%candidate-grasp candidate))

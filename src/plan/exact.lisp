@@ -18,9 +18,9 @@ from them, or a whole :SEARCH."
 
 (defun contacts-grip (candidate workspace
                       &optional (friction (%box-friction (workspace-box workspace))))
-  "Return the contacts of CANDIDATE, whose places WORKSPACE holds, as a grip with FRICTION."
+  "Return the contacts of CANDIDATE, whose figures WORKSPACE holds, as a grip with FRICTION."
   (let* ((box (workspace-box workspace))
-         (contacts (workspace-contacts candidate workspace))
+         (contacts (contacts-of candidate workspace))
          (grip (make-grip (length contacts) friction (%box-soft-friction box))))
     (loop for contact in contacts
           for index from 0

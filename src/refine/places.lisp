@@ -145,7 +145,7 @@ DIST-PINCH given, in cm."
   "Return the FREEDOM of the fingers of CANDIDATE, of a hand with the dimensions of GRASPBASE, whose
 figures WORKSPACE holds."
   (let* ((box (workspace-box workspace))
-         (home (placement-of (workspace-contacts candidate workspace)))
+         (home (placement-of (contacts-of candidate workspace)))
          (faces (loop for (grasp-face) in (grasp-contacts (%candidate-grasp candidate))
                       collect (svref (matching-faces (%candidate-matching candidate)) grasp-face)))
          (freedom (make-freedom :count (length faces) :faces faces :home home
