@@ -172,7 +172,7 @@
       "velocities alone count")
   (is (equal '("is 0.760, not 0.750: 1.3 % more" "is 0.75021, not 0.75018: 0.0 % more" "stays 0.750")
              (loop for (from to) in '((0.75d0 0.76d0) (0.75018d0 0.75021d0) (0.75d0 0.75d0))
-                   collect (supergrip::change-text from to))))
+                   collect (supergrip::quality-change-text from to))))
   (is (search "the task needs no force" (first (printed (supergrip:explain-refinement
                                                          (supergrip:plan (changed-box :force-needed '(0 0 0 0 0 0))))))))
   (is (eql 0 (search "There is no grasp to refine: "

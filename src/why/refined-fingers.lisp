@@ -26,7 +26,7 @@ others."
       (plain-text "~,1f %" (* 100 (/ (- to from) from)))
       "any part"))
 
-(defun change-text (from to)
+(defun quality-change-text (from to)
   "Return in words that a quality is TO, and was FROM."
   (if (= from to)
       (plain-text "stays ~,3f" to) ; where velocities alone count
@@ -56,7 +56,8 @@ others."
            (format stream "the task needs no force, or it is too large to compute with, so the ~
                            fingers stay.~%"))
           ((refinement-moved-p answer)
-           (format stream "with its fingers moved, the exact Q ~a.~%" (change-text before after))
+           (format stream "with its fingers moved, the exact Q ~a.~%"
+                   (quality-change-text before after))
            (write-moves answer stream))
           (t (format stream "no better places were found, so the fingers stay; the exact Q is ~
                              ~,3f.~%" after)))
