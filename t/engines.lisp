@@ -284,6 +284,19 @@ order of predicates."
 
 ;;; Random grasps.  The reference engine lets Lisp itself compile their forms.
 
+(defun oracle-of-grasps (forms knowledge)
+  "Return the reference's knowledge of the grasp FORMS and one rule; or NIL if KNOWLEDGE, the
+engine's, has computed a constant and so sees that a turn changes nothing where the reference does
+not."
+  (let* ((oracle (supergrip-oracle:make-oracle-knowledge :rules *try-g* :grasps forms))
+         (turns (length (supergrip::allowed-turns
+                         (supergrip::grasp-draft
+                          (first (supergrip:knowledge-grasps knowledge))))))
+         (others (length (supergrip-oracle::grasp-symmetries
+                          (first (supergrip-oracle::knowledge-grasps oracle))))))
+    (is (>= turns others))
+    (and (= turns others) oracle)))
+
 (test both-engines-agree-on-random-forms
   (let ((state (sb-ext:seed-random-state 300))
         (outcomes '()))
@@ -292,20 +305,20 @@ order of predicates."
           until (= agreed 200)
           do (let* ((forms (random-grasp-forms state))
                     (knowledge (knowledge-of-grasps forms))
-                    (boxes (loop repeat 8 collect (random-box state))))
-               (when (supergrip::knowledge-p knowledge)
-                 (let ((oracle (supergrip-oracle:make-oracle-knowledge :rules *try-g*
-                                                                       :grasps forms)))
-                   (incf agreed)
-                   (dolist (box boxes)
-                     (dolist (candidate (supergrip:plan-candidates
-                                         (supergrip:plan box :knowledge knowledge)))
-                       (incf (getf outcomes (supergrip:candidate-outcome candidate) 0))))
-                   (is (null (first-fault (lambda (box) (plan-difference box knowledge oracle))
-                                          boxes))
-                       "~s ~s"
-                       (first-fault (lambda (box) (plan-difference box knowledge oracle)) boxes)
-                       forms)))))
+                    (boxes (loop repeat 8 collect (random-box state)))
+                    (oracle (and (supergrip::knowledge-p knowledge)
+                                 (oracle-of-grasps forms knowledge))))
+               (when oracle
+                 (incf agreed)
+                 (dolist (box boxes)
+                   (dolist (candidate (supergrip:plan-candidates
+                                       (supergrip:plan box :knowledge knowledge)))
+                     (incf (getf outcomes (supergrip:candidate-outcome candidate) 0))))
+                 (is (null (first-fault (lambda (box) (plan-difference box knowledge oracle))
+                                        boxes))
+                     "~s ~s"
+                     (first-fault (lambda (box) (plan-difference box knowledge oracle)) boxes)
+                     forms))))
     ;; Agreement about candidates that all fail at once would say little.
     (loop for outcome in '(:possible :conditions :offset :fingers :open :lifting)
           do (is (> (getf outcomes outcome 0) 20) "~a: ~a" outcome outcomes))))

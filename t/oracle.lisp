@@ -288,15 +288,52 @@ of (rule . fact), as strings, in the order in which the facts were remembered."
   "Return the elements of SIX, a list, that stand at POSITIONS."
   (loop for position in positions collect (nth position six)))
 
-(defun symmetries (used contact-faces)
+(defun joined-by (operator form)
+  "Return what FORM joins by OPERATOR, AND or OR, at any depth."
+  (if (and (consp form) (eq (first form) operator))
+      (loop for part in (rest form) append (joined-by operator part))
+      (list form)))
+
+(defun in-order (forms)
+  (sort (copy-list forms) #'string< :key #'prin1-to-string))
+
+(defun constrained-after (form positions used helpers)
+  "Return FORM, its helpers opened, where CONSTRAINED asks for the faces that stand at POSITIONS; of
+the faces USED none is.  What AND, OR, + and * join is put into one order."
+  (labels ((after (form) (constrained-after form positions used helpers))
+           (label-of (form) (if (consp form) (second form) form)))
+    (cond ((atom form) form)
+          ((eq (first form) 'constrained)
+           (let ((label (label-of (second form))))
+             (if (member label used)
+                 nil
+                 `(constrained ,(nth (position label *labels*) (turn *labels* positions))))))
+          ((member (first form) '(and or))
+           (cons (first form) (in-order (mapcar #'after (joined-by (first form) form)))))
+          ((member (first form) '(+ *)) (cons (first form) (in-order (mapcar #'after (rest form)))))
+          ((assoc (first form) helpers)
+           (list* (after (third (assoc (first form) helpers))) (mapcar #'after (rest form))))
+          (t (mapcar #'after form)))))
+
+(defun same-when-turned-p (properties positions used helpers)
+  "True if no form of PROPERTIES tells the turn to POSITIONS by what it asks for CONSTRAINED."
+  (loop for form in (list (prefix (getf properties 'conditions t)) (getf properties 'offset)
+                          (getf properties 'wrench) (getf properties 'twist)
+                          (getf properties 'contacts))
+        always (equal (constrained-after form '(0 1 2 3 4 5) used helpers)
+                      (constrained-after form positions used helpers))))
+
+(defun symmetries (used contact-faces properties helpers)
   "Return the turns, as lists of positions, that carry USED and CONTACT-FACES onto themselves:
-the half-turn about A, and the two third-turns about the corner of N1, O1 and A1."
+the half-turn about A, and the two third-turns about the corner of N1, O1 and A1; but not those that
+forms of PROPERTIES tell."
   (flet ((kept-p (faces positions)
            (same-elements-p faces (loop for face in faces
                                         collect (nth (position face *labels*)
                                                      (turn *labels* positions))))))
     (loop for positions in '((1 0 3 2 4 5) (2 3 4 5 0 1) (4 5 0 1 2 3))
-          when (and (kept-p used positions) (kept-p contact-faces positions))
+          when (and (kept-p used positions) (kept-p contact-faces positions)
+                    (same-when-turned-p properties positions used helpers))
             collect positions)))
 
 (defun parse-grasp (name properties gripper helpers)
@@ -306,7 +343,7 @@ the half-turn about A, and the two third-turns about the corner of N1, O1 and A1
     (make-grasp :name name
                 :used used
                 :contact-faces faces
-                :symmetries (symmetries used (remove-duplicates faces))
+                :symmetries (symmetries used (remove-duplicates faces) properties helpers)
                 :forms (quietly-compile (forms-lambda properties gripper helpers)))))
 
 ;;;; ---------------------------------------------------------------- matchings

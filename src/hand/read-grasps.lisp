@@ -352,6 +352,21 @@ coordinates that the turn changes are always 0."
   (or (computed-p (draft-wrench (grasp-draft grasp)))
       (computed-p (draft-twist (grasp-draft grasp)))))
 
+(defun same-draft-p (draft kind turn)
+  "True if the forms of DRAFT surely say the same after TURN, of KIND.  What is computed follows from
+the contacts.  A half-turn may exchange these, as far as six entries can tell."
+  (flet ((entries (node) (if (computed-p node) '() (list (six-entries node)))))
+    (let ((offset (six-entries (draft-offset draft))) (contacts (draft-contacts draft))
+          (half (eq kind :half-turn)))
+      (same-forms-p turn (draft-used draft)
+                    (cons (draft-conditions draft)
+                          (and half (loop for (nil . nodes) in contacts append nodes)))
+                    (append (list (append (loop for (plus) on offset by #'cddr collect plus)
+                                          (loop for (nil minus) on offset by #'cddr
+                                                collect minus)))
+                            (entries (draft-wrench draft)) (entries (draft-twist draft)))
+                    (if half '() contacts)))))
+
 (defun contact-points (contacts &optional mirrors)
   "Return where CONTACTS are, lists of a grasp face and two lengths, after mirrors along the axes
 MIRRORS.  A length that varies is equal to itself alone, and not to its mirror image."
@@ -395,25 +410,32 @@ contacts are mirror images."
         (and (eq kind :half-turn)
              (or (= vertical 2) (mirrored-p (draft-contacts draft) (list vertical)))))))
 
-(defun same-matchings (used fingers same-p)
-  "Return, for each matching, the set of those turns of it (see +TURNS+) that are the same grasp: as
-far as its faces show, and as SAME-P, a function of the kind of a turn and a matching, says."
+(defun allowed-turns (draft)
+  "Return those of +TURNS+ after which the grasp of DRAFT is the same, as far as its faces and its
+forms show."
+  (loop for (kind turn) in +turns+
+        when (and (allowed-turn-p kind turn (draft-used draft)
+                                  (mapcar #'first (draft-contacts draft)))
+                  (same-draft-p draft kind turn))
+          collect (list kind turn)))
+
+(defun same-matchings (turns same-p)
+  "Return, for each matching, the set of those of TURNS of it that are the same grasp, as SAME-P, a
+function of the kind of a turn and a matching, says."
   (let ((sets (make-array 24 :element-type '(unsigned-byte 24))))
     (loop for matching across +matchings+
           do (setf (aref sets (matching-index matching))
                    (reduce #'logior
-                           (loop for (kind turn) in +turns+
-                                 when (and (allowed-turn-p kind turn used fingers)
-                                           (funcall same-p kind matching))
+                           (loop for (kind turn) in turns
+                                 when (funcall same-p kind matching)
                                    collect (ash 1 (matching-index (turned matching turn))))
                            :initial-value (ash 1 (matching-index matching)))))
     sets))
 
-(defun same-where-gravity-is (draft axis)
-  "Return, for each matching of the grasp of DRAFT, the set of those that are the same grasp where
-gravity is along the box's AXIS, 0 to 2."
-  (same-matchings (draft-used draft) (mapcar #'first (draft-contacts draft))
-                  (lambda (kind matching) (same-lying-p draft kind matching axis))))
+(defun same-where-gravity-is (draft turns axis)
+  "Return, for each matching of the grasp of DRAFT, the set of those of its TURNS that are the same
+grasp where gravity is along the box's AXIS, 0 to 2."
+  (same-matchings turns (lambda (kind matching) (same-lying-p draft kind matching axis))))
 
 (defun usable-matchings (used)
   "Return, for each set of box faces, the set of the matchings in which none of the grasp faces USED
@@ -441,7 +463,9 @@ LAYOUT."
          (conditions (draft-conditions draft))
          (positions (numbers-program (loop for (nil . place) in contacts append place) layout))
          (places (coerce (program-results positions) 'list))
-         (same (coerce (loop for axis below 3 collect (same-where-gravity-is draft axis)) 'vector)))
+         (turns (allowed-turns draft))
+         (same (coerce (loop for axis below 3 collect (same-where-gravity-is draft turns axis))
+                       'vector)))
     (make-grasp
      :name (draft-name draft) :index index :definition (draft-form draft)
      :draft draft :file (draft-file draft)
@@ -460,7 +484,7 @@ LAYOUT."
      :twist (six-program (draft-twist draft) layout)
      :usable (usable-matchings (draft-used draft))
      :same (svref same 2) :same-lying same
-     :same-centre (same-matchings (draft-used draft) fingers
+     :same-centre (same-matchings turns
                                   (lambda (kind matching)
                                     (declare (ignore matching))
                                     (and (kept-centre-p kind (draft-offset draft))
