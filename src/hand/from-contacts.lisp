@@ -48,8 +48,8 @@ DESCRIBE-GRASP."
         ((and (consp value) (namep (first value)) (null (rest value))) (first value))))
 
 (defun constant-reach (reach scope)
-  "Return the number that REACH, a number or a form in SCOPE, is for every box; NIL if it is none, or
-is wrong, which is complained of elsewhere."
+  "Return the number that REACH, a number or a form in SCOPE, is for every box; NIL if it is none,
+or is wrong, which is complained of elsewhere."
   (let ((node (values (with-problems (parse-form reach scope :number)))))
     (and node (constant-p node) (constant-value node))))
 

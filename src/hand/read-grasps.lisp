@@ -353,8 +353,8 @@ coordinates that the turn changes are always 0."
       (computed-p (draft-twist (grasp-draft grasp)))))
 
 (defun same-draft-p (draft kind turn)
-  "True if the forms of DRAFT surely say the same after TURN, of KIND.  What is computed follows from
-the contacts.  A half-turn may exchange these, as far as six entries can tell."
+  "True if the forms of DRAFT surely say the same after TURN, of KIND.  What is computed follows
+from the contacts.  A half-turn may exchange these, as far as six entries can tell."
   (flet ((entries (node) (if (computed-p node) '() (list (six-entries node)))))
     (let ((offset (six-entries (draft-offset draft))) (contacts (draft-contacts draft))
           (half (eq kind :half-turn)))

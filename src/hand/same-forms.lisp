@@ -54,8 +54,8 @@ same.  KNOWN is a table of what has numbers; of the grasp faces USED none is con
       #'key)))
 
 (defun same-forms-p (turn used alone sixes contacts)
-  "True if what a grasp that uses the faces USED says is the same after TURN: the nodes ALONE; SIXES,
-lists of six nodes along and about N O A; and CONTACTS, lists of a face and two nodes."
+  "True if what a grasp that uses the faces USED says is the same after TURN: the nodes ALONE;
+SIXES, lists of six nodes along and about N O A; and CONTACTS, lists of a face and two nodes."
   (let* ((known (make-hash-table :test #'equal)) (nothing #(0 1 2 3 4 5))
          (now (node-key-function known used nothing)) (then (node-key-function known used turn)))
     (flet ((contact-keys (key turn)

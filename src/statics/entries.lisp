@@ -28,7 +28,8 @@ it surely exerts, and what it surely can't exceed."
 (defun grip-entries (grip)
   "Return how far GRIP reaches along each axis: its exact WRENCH entries, six along and six against
 X Y Z and about X Y Z.  Two twelves: what it surely exerts, and what it surely can't exceed, equal
-to ten places or so, or to six where friction is in the hundreds.  All are 0 if the grip is open, or can't be computed.
+to ten places or so, or to six where friction is in the hundreds.  All are 0 if the grip is open, or
+can't be computed.
 Where GRIP is its own mirror image, one way is as far as the other."
   (declare (type grip grip))
   (without-float-traps
