@@ -219,6 +219,16 @@
                       (format nil "~{~a~}" (printed (supergrip:explain-refinement
                                                      plan :count 1 :regions 0))))))))
 
+(test of-equals-the-grasp-that-the-plan-put-first-is-the-best
+  (flet ((refinement (radius)
+           (supergrip::make-refinement :candidate (supergrip:plan-best (pencil-plan))
+                                       :plan (pencil-plan) :radius (list radius radius))))
+    (let ((all (mapcar #'refinement '(1d0 1.0001d0 2d0 0.5d0))))
+      (is (equal (mapcar (lambda (k) (nth k all)) '(2 1 0 3)) (supergrip::best-first all)))
+      (is (equal (mapcar (lambda (k) (nth k all)) '(0 1 3))
+                 (supergrip::best-first (remove (third all) all)))))
+    (is (null (supergrip::best-first '())))))
+
 (test fingers-on-one-face-do-not-cross
   (flet ((contact (surface &rest place) (list :surface surface :position place)))
     (let ((contacts (list (contact "Y2" 2 -1 0) (contact "Y2" 0 -1 0) (contact "Y2" -2 -1 0)
