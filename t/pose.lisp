@@ -52,7 +52,7 @@ the world as before."
             `((pose ,(first pose)
                     ,(supergrip::quaternion-product
                       (mapcar (lambda (number) (coerce number 'double-float)) (second pose))
-                      (supergrip::quaternion-inverse (matching-quaternion matching)))))
+                      (quaternion-inverse (matching-quaternion matching)))))
             (and centre `((centre ,@(turned-signed centre matching)))))))
 
 ;;; The paper's index

@@ -640,6 +640,13 @@ order."
 (defun lisp-record (line)
   (let ((*read-eval* nil)) (read-from-string line)))
 
+;;; Rotations
+
+(defun quaternion-inverse (quaternion)
+  "Return the quaternion of the opposite rotation of QUATERNION, a unit quaternion."
+  (destructuring-bind (x y z w) quaternion
+    (list (- 0d0 x) (- 0d0 y) (- 0d0 z) w)))
+
 ;;; What contacts can really do
 
 (defun candidate-case (candidate plan need)

@@ -19,7 +19,7 @@ one generic function.")
    ;; declarations and rules
    #:input-form-p #:input-words
    #:rule #:rule-name #:rule-form #:rule-index #:rule-clauses #:rule-actions #:rule-variables
-   #:rule-line #:rule-file #:rule-comment
+   #:rule-comment
    #:clause #:clause-negated #:clause-predicate #:clause-terms #:clause-form
    #:action #:action-verb #:action-form #:action-predicate #:action-terms #:action-target
    #:action-function #:action-operands #:action-number

@@ -10,7 +10,7 @@
 (defstruct rule
   "A rule.  COMMENT is the list of the lines before it in its file.  VARIABLES are the names of its
 variables; the place of one is its number."
-  (name nil :read-only t) (form nil :read-only t) (file nil :read-only t) (line nil :read-only t)
+  (name nil :read-only t) (form nil :read-only t)
   (comment '() :read-only t)
   (index 0 :type fixnum :read-only t)
   (variables '() :type list :read-only t)

@@ -7,10 +7,6 @@
   "True if OBJECT is a name: any symbol but NIL, which is the empty list."
   (and object (symbolp object)))
 
-(defun name-text (name)
-  "Return the letters of NAME, a symbol or a string."
-  (string name))
-
 (defun name= (name other)
   "True if NAME is a name with the letters of OTHER, a symbol or a string."
   (and (namep name) (string= (symbol-name name) (string other))))

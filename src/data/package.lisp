@@ -10,7 +10,7 @@ wrong in them.")
    #:problem #:make-problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text
    #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
-   #:*places* #:form-file #:form-line #:form-place-text
+   #:*places* #:form-place-text
    #:errors-in #:warnings-in #:refused-p #:suggestion
    ;; SBCL itself
    #:backquote-p #:take-from #:give-to #:keep-in #:double-bits #:with-plain-floats
@@ -26,10 +26,10 @@ wrong in them.")
    #:input-error-consequence #:syntax-error #:box-error #:knowledge-error
    #:knowledge-error-consequence #:knowledge-warning #:knowledge-warning-problems #:retry
    ;; names and forms
-   #:with-row #:name-text #:name= #:name-in #:namep #:part-p #:canonical #:canonical-name
+   #:with-row #:name= #:name-in #:namep #:part-p #:canonical #:canonical-name
    #:form-text #:as-double #:cut-text #:visible-text #:invisible-p #:code-text
    ;; reader
-   #:source #:string-source #:stream-source #:source-line #:source-column #:source-name
+   #:source #:string-source #:source-line #:source-column #:source-name
    #:read-datum #:skip-blanks #:end-of-data #:read-all #:record-start-line
    #:peek #:source-buffer #:source-position #:source-end #:utf-16-p
    #:skip-to-record #:skip-record #:make-source #:part-place #:+mark+

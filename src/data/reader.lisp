@@ -46,15 +46,6 @@ may have.  TRACK tells where each part of the record begins (see NOTE-PLACE)."
   (let ((buffer (coerce string '(simple-array character (*)))))
     (make-source buffer (length buffer) :name name)))
 
-(defun stream-source (stream &key name)
-  "Return a source that reads STREAM, a character stream, to its end."
-  (let ((buffer (make-string 4096)))
-    (make-source buffer 0
-                 :name name
-                 :refill (lambda ()
-                           (let ((end (read-sequence buffer stream)))
-                             (and (plusp end) (values buffer end)))))))
-
 (defun source-column (source)
   "Return the column, from 1, of the next character."
   (1+ (- (+ (source-offset source) (source-position source)) (source-line-offset source))))

@@ -14,8 +14,7 @@ itself included; SAME-LYING such sets where gravity is along X, Y and Z; SAME-CE
 them whose grasp centre is surely the same place of the box."
   (name "" :type string :read-only t) (index 0 :type fixnum :read-only t)
   (definition nil :read-only t) (draft nil :read-only t)
-  (file nil :read-only t) (line nil :read-only t) (comment '() :read-only t)
-  (used '() :type list :read-only t) (palm 0 :type fixnum :read-only t)
+  (comment '() :read-only t) (used '() :type list :read-only t) (palm 0 :type fixnum :read-only t)
   (conditions-node nil :read-only t) (conditions nil :type (or null program) :read-only t)
   (comparisons '() :type list :read-only t)
   (offset nil :type (or null program) :read-only t)
@@ -190,7 +189,7 @@ itself."
 
 (defstruct draft
   "A grasp whose forms are checked and are nodes still."
-  (name nil :read-only t) (form nil :read-only t) (file nil :read-only t) (line nil :read-only t)
+  (name nil :read-only t) (form nil :read-only t)
   (comment nil :read-only t) (used nil :read-only t) (palm nil :read-only t)
   (conditions nil :read-only t) (offset nil :read-only t) (contacts nil :read-only t)
   (wrench nil :read-only t) (twist nil :read-only t)
@@ -307,8 +306,6 @@ form, and sentences."
               (and used palm contacts conditions offset wrench twist
                    (not (uses-absent-p (symbol-name name) scope))
                    (make-draft :name (symbol-name name) :form form
-                               :file (form-file form)
-                               :line (form-line form)
                                :comment (and *comments* (gethash form *comments*))
                                :used used :palm palm :contacts contacts :conditions conditions
                                :offset offset :wrench wrench :twist twist
@@ -468,8 +465,7 @@ LAYOUT."
                        'vector)))
     (make-grasp
      :name (draft-name draft) :index index :definition (draft-form draft)
-     :draft draft :file (draft-file draft)
-     :line (draft-line draft) :comment (draft-comment draft)
+     :draft draft :comment (draft-comment draft)
      :used (draft-used draft) :palm (draft-palm draft)
      :conditions-node conditions
      :conditions (test-program conditions layout)

@@ -67,11 +67,6 @@ would decide about the signs."
             (+ (* aw bz) (* az bw) (- (* ax by) (* ay bx)))
             (- (* aw bw) (* ax bx) (* ay by) (* az bz))))))
 
-(defun quaternion-inverse (quaternion)
-  "Return the quaternion of the opposite rotation of QUATERNION, a unit quaternion."
-  (destructuring-bind (x y z w) quaternion
-    (list (- 0d0 x) (- 0d0 y) (- 0d0 z) w)))
-
 (defun quaternion-matrix (quaternion)
   "Return the matrix of QUATERNION, a unit quaternion."
   (destructuring-bind (x y z w) quaternion
@@ -105,7 +100,3 @@ taken, so that nothing small is divided by."
   (apply #'mapcar #'+ (loop for column in matrix
                             for number in vector
                             collect (loop for part in column collect (* part number)))))
-
-(defun turned-back (matrix vector)
-  "Return VECTOR, a list of three in the outer frame, as the frame that MATRIX turns has it."
-  (loop for column in matrix collect (dot-product column vector)))

@@ -144,7 +144,7 @@ given, in a place of its own."
        (loop for (key parts) in (split-entries list)
              when (handler-case (progn (canonical parts) nil)
                     (syntax-error () t))
-               return (and (namep key) (name-text key)))))
+               return (and (namep key) (string key)))))
 
 (defun defined-name (form)
   "Return the name that FORM defines, as far as it has one."
@@ -282,7 +282,7 @@ to two keys."
   "True if NAME has a meaning in the grasp file in force."
   (or (name= name "GRIPPER")
       (dimension-name-p name)
-      (find-grasp (knowledge-graspbase *knowledge*) (name-text name))))
+      (find-grasp (knowledge-graspbase *knowledge*) (string name))))
 
 (defun quote-missing-p (name form)
   "True if FORM is a box, a grasp or a gripper whose quote was forgotten."
@@ -294,8 +294,7 @@ to two keys."
 
 (defun meant-dimension (name)
   "Return the phrase that suggests the dimension that NAME was probably meant to be."
-  (suggestion (name-text name) (mapcar #'car (append (knowledge-gripper *knowledge*)
-                                                     +dimensions+))))
+  (suggestion (string name) (mapcar #'car (append (knowledge-gripper *knowledge*) +dimensions+))))
 
 (defun set-variable (name value)
   "Give the variable NAME the VALUE, unless that is a number for a dimension that is misspelt."
