@@ -177,6 +177,11 @@ third part of the second part of it.  Of a part that is not there, the one aroun
     (values (+ (source-record-start-line source) (ldb (byte 20 10) (aref track place)))
             (ldb (byte 32 30) (aref track place)))))
 
+(defun skip-comment (source)
+  (loop for c = (peek source)
+        while (and c (char/= c #\Newline))
+        do (next source)))
+
 (defun skip-blanks (source)
   "Skip white space and comments; return the next character, or NIL at the end."
   (loop for character = (peek source)
@@ -184,9 +189,7 @@ third part of the second part of it.  Of a part that is not there, the one aroun
                  ((blankp character) (next source))
                  ((char= character #\;)
                   (setf (source-inside source) :comment)
-                  (loop for c = (peek source)
-                        while (and c (char/= c #\Newline))
-                        do (next source))
+                  (skip-comment source)
                   (setf (source-inside source) nil))
                  (t (return character)))))
 
@@ -251,11 +254,6 @@ Where comments are wanted, the lines just before a form are kept; an empty line 
              (skip-comment source)))
         ((and (char= (next source) #\Newline) (eql (peek source) #\Newline))
          (setf (source-comment source) '()))))
-
-(defun skip-comment (source)
-  (loop for c = (peek source)
-        while (and c (char/= c #\Newline))
-        do (next source)))
 
 (defun read-comment (source)
   "Read the comment that begins here and return its text, at most a line's length of it."
