@@ -16,19 +16,14 @@ far as it is known; SUBJECT is the rule, grasp or box (\"RULE GRIP1\"), PLACE th
 
 (defun write-problem (problem stream)
   "Write PROBLEM as FILE:LINE:COLUMN: SUBJECT, PLACE: TEXT, without the parts that are not known."
-  (plainly (write-problem-parts problem stream)))
-
-(defun write-problem-parts (problem stream)
-  (format stream "~@[~a:~]~@[~d:~]~@[~d:~]" (problem-file problem) (problem-line problem)
-          (problem-column problem))
-  (when (or (problem-file problem) (problem-line problem)) (write-char #\Space stream))
-  (when (eq (problem-severity problem) :warning) (write-string "warning: " stream))
-  (format stream "~@[~a~]~:[~;, ~]~@[~a~]~:[~;: ~]~a"
-          (problem-subject problem)
-          (and (problem-subject problem) (problem-place problem))
-          (problem-place problem)
-          (or (problem-subject problem) (problem-place problem))
-          (problem-text problem)))
+  (let ((subject (problem-subject problem)) (place (problem-place problem)))
+    (plainly
+      (format stream "~@[~a:~]~@[~d:~]~@[~d:~]~:[~; ~]~:[~;warning: ~]~
+                      ~@[~a~]~:[~;, ~]~@[~a~]~:[~;: ~]~a"
+              (problem-file problem) (problem-line problem) (problem-column problem)
+              (or (problem-file problem) (problem-line problem))
+              (eq (problem-severity problem) :warning)
+              subject (and subject place) place (or subject place) (problem-text problem)))))
 
 (defmethod print-object ((problem problem) stream)
   (if *print-escape*
