@@ -35,5 +35,4 @@
            (complain form "a declaration holds for all surfaces: ~a"
                      (input-line (words-text words) (length surfaces))))
           (t (parse-sentence (rest form) form t
-                             (make-input-declaration
-                              :form form :comment (and *comments* (gethash form *comments*))))))))
+                             (make-input-declaration :form form :comment (form-comment form)))))))

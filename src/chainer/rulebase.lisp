@@ -49,8 +49,7 @@ INDEX.  NIL after a complaint."
          (*clause-failed* (null clauses))
          (actions (parse-parts #'parse-action (rest (fourth form)) "action")))
     (and clauses actions
-         (make-rule :name (symbol-name (second form)) :form form
-                    :comment (and *comments* (gethash form *comments*))
+         (make-rule :name (symbol-name (second form)) :form form :comment (form-comment form)
                     :index index :variables *variables* :clauses clauses :actions actions
                     :matcher (compile-antecedent clauses actions (length *variables*))))))
 

@@ -128,6 +128,10 @@ unknown, they are no slips of the pen.")
   (and (or (form-line form) (not (or form *form*)))
        *file*))
 
+(defun form-comment (form)
+  "Return the lines of the comment before FORM in that file, or NIL if they are not known."
+  (and *comments* (gethash form *comments*)))
+
 (defun form-place-text (form)
   "Return the file and the line of FORM as a text, as far as they are known, or NIL."
   (and (form-file form) (format nil "~a~@[:~d~]" (form-file form) (form-line form))))

@@ -10,7 +10,7 @@ wrong in them.")
    #:problem #:make-problem #:problem-severity #:problem-file #:problem-line #:problem-column
    #:problem-subject #:problem-place #:problem-text
    #:complain #:with-problems #:*file* #:*lines* #:*comments* #:*subject* #:*place* #:*form*
-   #:*places* #:form-place-text
+   #:*places* #:form-comment #:form-place-text
    #:errors-in #:warnings-in #:refused-p #:suggestion
    ;; SBCL itself
    #:backquote-p #:take-from #:give-to #:keep-in #:double-bits #:with-plain-floats

@@ -305,8 +305,7 @@ form, and sentences."
                   (twist (parse-capacity "TWIST" #'given placement #'parse-twist)))
               (and used palm contacts conditions offset wrench twist
                    (not (uses-absent-p (symbol-name name) scope))
-                   (make-draft :name (symbol-name name) :form form
-                               :comment (and *comments* (gethash form *comments*))
+                   (make-draft :name (symbol-name name) :form form :comment (form-comment form)
                                :used used :palm palm :contacts contacts :conditions conditions
                                :offset offset :wrench wrench :twist twist
                                :derived (derived-parts #'given offset-form wrench twist
