@@ -57,6 +57,7 @@ known; an error at compile time says so if one of its kinds has no clause."
 
 (defun constant-p (node) (eq (node-kind node) :constant))
 (defun constant-value (node) (first (node-args node)))
+(defun zero-node-p (node) (and (constant-p node) (zerop (constant-value node))))
 
 (defun test-value (node)
   "Return T or :FALSE if NODE, a test, is so whatever the box; NIL if it depends."
@@ -257,11 +258,8 @@ are constants.  NIL if one of them is NIL."
 ;;; Sums that were products once: the scan of the paper reads (* 2 u) as (+ 2 u)
 
 (defvar *sums* nil
-  "NIL, or true in a form whose sums are checked: in one of six entries its number, else T.")
-
-(defmacro watching-sums (form)
-  "Run FORM, which reads a form; warn of each sum in it that was probably meant to be a product."
-  `(let ((*sums* t)) ,form))
+  "NIL, or true in a form where each sum that was probably meant to be a product is warned of: in one
+of six entries its number, else T.")
 
 (defun friction-p (node)
   (and (eq (node-kind node) :input) (member (first (node-args node)) (list +u+ +v+))))
@@ -401,6 +399,15 @@ BODY is."
         (parse-six-entries form entries scope)
         (complain form "~a: what is quoted is not computed; write ~a" (form-text form)
                   (form-text (if (listp entries) (cons :list entries) '(:list 0 0 0 0 0 0)))))))
+
+(defun entry-lists (node)
+  "Return the lists of six nodes that NODE, which gives six numbers, has for its cases; none if it
+computes them."
+  (node-case (:six node)
+    (:list (&rest entries) (list entries))
+    (:let (nodes body) (declare (ignore nodes)) (entry-lists body))
+    (:cond (&rest clauses) (loop for (nil value) in clauses append (entry-lists value)))
+    (:computed () '())))
 
 ;;; Tests: T, (CONSTRAINED N1), comparisons prefix (< a b) or infix (a < b), (NOT test), and tests
 ;;; joined by AND and OR, prefix or infix; infix AND and OR have equal precedence and associate to

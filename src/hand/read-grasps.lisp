@@ -39,9 +39,7 @@ them whose grasp centre is surely the same place of the box."
   "Return the property list that defines GRASP, (key value ...)."
   (second (third (grasp-form grasp))))
 
-(defmethod print-object ((grasp grasp) stream)
-  (print-unreadable-object (grasp stream :type t)
-    (write-string (grasp-name grasp) stream)))
+(define-printing (grasp grasp) "~a" (grasp-name grasp))
 
 (defstruct graspbase
   "The gripper, the grasps, and the registers that their programs start from.  USES are
@@ -202,24 +200,17 @@ itself."
       (complain form '(:warning "these conditions are false for every box")))
     node))
 
-(defun negative-twist (node)
-  "Return the first constant below zero in NODE, which gives six numbers, or NIL."
-  (node-case (:six node)
-    (:list (&rest entries)
-      (find-if (lambda (entry) (and (constant-p entry) (minusp (constant-value entry)))) entries))
-    (:let (nodes body) (declare (ignore nodes)) (negative-twist body))
-    (:cond (&rest clauses)
-      (loop for (nil value) in clauses thereis (negative-twist value)))
-    (:computed () nil)))
-
 (defun parse-wrench (form scope)
   "Return the node of FORM, the six entries; warn of sums that were probably products."
-  (watching-sums (parse-form form scope :six)))
+  (let ((*sums* t))
+    (parse-form form scope :six)))
+
+(defun negative-node-p (node) (and (constant-p node) (minusp (constant-value node))))
 
 (defun parse-twist (form scope)
   "Return the node of FORM, the mobility; complain of an entry below zero."
   (let ((node (parse-form form scope :six)))
-    (if (and node (negative-twist node))
+    (if (and node (some (lambda (entries) (some #'negative-node-p entries)) (entry-lists node)))
         (complain form "an entry is below 0, but a mobility must be 0 or more")
         node)))
 
@@ -330,16 +321,8 @@ after TURN as far as the paper's index can tell, which takes the lesser of two d
 (defun kept-centre-p (kind offset)
   "True if a turn of KIND surely leaves a grasp centre that OFFSET, a node, gives where it is: the
 coordinates that the turn changes are always 0."
-  (flet ((zero-p (entry) (and (constant-p entry) (zerop (constant-value entry)))))
-    (node-case (:six offset)
-      (:list (&rest entries)
-        (every #'zero-p (if (eq kind :half-turn) (subseq entries 0 4) entries)))
-      (:let (nodes body)
-        (declare (ignore nodes))
-        (kept-centre-p kind body))
-      (:cond (&rest clauses)
-        (loop for (nil value) in clauses always (kept-centre-p kind value)))
-      (:computed () nil))))
+  (loop for entries in (entry-lists offset)
+        always (every #'zero-node-p (if (eq kind :half-turn) (subseq entries 0 4) entries))))
 
 (defun computed-p (node) (eq (node-kind node) :computed))
 
@@ -384,7 +367,7 @@ MIRRORS.  A length that varies is equal to itself alone, and not to its mirror i
 
 (defun in-the-middle-p (contact)
   "True if CONTACT is surely in the middle of its face, but for the offset."
-  (every (lambda (node) (and (constant-p node) (zerop (constant-value node)))) (rest contact)))
+  (every #'zero-node-p (rest contact)))
 
 (defun same-anyhow-p (draft kind)
   "True if a turn of KIND leaves the grasp of DRAFT the same wherever gravity points.  Six entries
