@@ -70,19 +70,13 @@ order of the faces; O follows."
 
 (defparameter +all-matchings+ (1- (ash 1 24)) "The set of all matchings.")
 
-(defun matchings-with (grasp-face face)
-  "Return the set of the matchings that give GRASP-FACE the box face FACE."
-  (loop with set = 0
-        for matching across +matchings+
-        when (= face (svref (matching-faces matching) grasp-face))
-          do (setf set (logior set (ash 1 (matching-index matching))))
-        finally (return set)))
-
 (defparameter +matchings-with+
-  (let ((sets (make-array '(6 6) :element-type '(unsigned-byte 24))))
-    (dotimes (grasp-face 6 sets)
-      (dotimes (face 6)
-        (setf (aref sets grasp-face face) (matchings-with grasp-face face)))))
+  (let ((sets (make-array '(6 6) :element-type '(unsigned-byte 24) :initial-element 0)))
+    (loop for matching across +matchings+
+          do (loop for face across (matching-faces matching)
+                   for grasp-face from 0
+                   do (incf (aref sets grasp-face face) (ash 1 (matching-index matching)))))
+    sets)
   "The set of the matchings that give a grasp face (first index) a face of the box (second).")
 (declaim (type (simple-array (unsigned-byte 24) (6 6)) +matchings-with+))
 

@@ -172,9 +172,8 @@ in all."
               (rate-exactly candidate workspace))))))))
 
 (defparameter +each-alone+
-  (let ((sets (make-array 24 :element-type '(unsigned-byte 24))))
-    (dotimes (matching 24 sets)
-      (setf (aref sets matching) (ash 1 matching))))
+  (coerce (loop for matching below 24 collect (ash 1 matching))
+          '(simple-array (unsigned-byte 24) (*)))
   "For each matching, the set of itself: gravity has a direction, so half a turn makes a
 difference.")
 
