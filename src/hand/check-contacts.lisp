@@ -59,22 +59,19 @@ likely first."
                       append (list (* 0.999d0 number) number (* 1.001d0 number))))
         #'< :key (lambda (size) (abs (log (/ size hand 0.4d0))))))
 
-(defmacro do-boxes ((registers grasp hand) &body body)
-  "Run BODY with REGISTERS holding each of many boxes in turn, in a block NIL."
-  (let ((parts (gensym "PARTS")) (sizes (gensym "SIZES")) (mentions (gensym "MENTIONS")))
-    `(let* ((,parts (parts-of (grasp-conditions-node ,grasp)))
-            (,sizes (sizes-to-try ,parts ,hand)))
-       (flet ((,mentions (kind &optional (input nil given))
-                (find-if (lambda (part) (and (eq (node-kind part) kind)
-                                             (or (not given) (eql input (first (node-args part))))))
-                         ,parts)))
-         (dolist (u (if (,mentions :input +u+) '(2d0 0.8d0 0.3d0) '(0.8d0)))
-           (dolist (blocked (if (,mentions :constrained) '(0d0 1d0) '(0d0)))
-             (dolist (n ,sizes)
-               (dolist (o ,sizes)
-                 (dolist (a ,sizes)
-                   (put-box ,registers ,grasp u blocked n o a)
-                   ,@body)))))))))
+(defun map-boxes (visit registers grasp hand)
+  "Call VISIT, a function without arguments, with REGISTERS holding each of many boxes in turn."
+  (let* ((parts (parts-of (grasp-conditions-node grasp)))
+         (sizes (sizes-to-try parts hand))
+         (inputs (loop for part in parts
+                       when (eq (node-kind part) :input) append (node-args part))))
+    (dolist (u (if (member +u+ inputs) '(2d0 0.8d0 0.3d0) '(0.8d0)))
+      (dolist (blocked (if (find :constrained parts :key #'node-kind) '(0d0 1d0) '(0d0)))
+        (dolist (n sizes)
+          (dolist (o sizes)
+            (dolist (a sizes)
+              (put-box registers grasp u blocked n o a)
+              (funcall visit))))))))
 
 (defun put-box (registers grasp u blocked n o a)
   "Put into REGISTERS a box of N, O, A cm with the friction U; BLOCKED is 1 if the faces that
@@ -155,11 +152,14 @@ strays, and how many boxes its conditions allowed.  HAND is how large boxes are 
         (centre (make-array 3 :element-type 'double-float)) (left (strays-of grasp)) (count 0))
     (without-float-traps
       (block looking
-        (do-boxes (registers grasp hand)
-          (when (put-centre grasp registers centre)
-            (incf count)
-            (setf left (remove-if (lambda (stray) (note-stray stray registers centre most)) left))
-            (when (null left) (return-from looking))))))
+        (map-boxes (lambda ()
+                     (when (put-centre grasp registers centre)
+                       (incf count)
+                       (setf left (remove-if (lambda (stray)
+                                               (note-stray stray registers centre most))
+                                             left))
+                       (when (null left) (return-from looking))))
+                   registers grasp hand)))
     (values left count)))
 
 (defun complain-of-stray (stray form count hand)
