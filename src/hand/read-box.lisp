@@ -48,16 +48,11 @@ is, a list of numbers, each that of an element."
                      (key-name *notation* (if (box-key-instead row) (find-rival row keys) row))))
           (t row))))
 
-(defun key-spot (key description)
-  "Return where in DESCRIPTION, a list of clauses, that of KEY begins, as CLAUSE-SPOT does."
-  (let ((*clause* (clause-number key description)))
-    (clause-spot)))
-
 (defun complain-of-centre (values description)
   "Complain if the centre of mass in VALUES, those of DESCRIPTION, lies outside the box."
-  (let ((reason (centre-fault values)))
+  (let ((reason (centre-fault values)) (*clause* (clause-number :centre description)))
     (when reason
-      (complain (key-spot :centre description) "~a" reason))))
+      (complain (clause-spot) "~a" reason))))
 
 (defun find-rival (row keys)
   "Return the one of KEYS in whose place the key ROW stands, or that stands in its place, or NIL."
