@@ -37,21 +37,6 @@
   (complain (value-spot row number) "~a is not a fact: ~a" (value-text *notation* fact)
             (apply #'format nil control arguments)))
 
-(defun fact-faces (list row number place)
-  "Return the faces in LIST, which stands at PLACE of the fact NUMBER, as a face list; or complain."
-  (let ((faces '()) (good t))
-    (loop for element in list
-          for k from 0
-          do (let ((face (face-named element)))
-               (cond ((null face)
-                      (setf good (refuse-face element (value-spot row number place k))))
-                     ((member face faces)
-                      (setf good (complain (value-spot row number place k)
-                                           "~a occurs twice in one list of faces"
-                                           (value-text *notation* element))))
-                     (t (push face faces)))))
-    (and good (make-face-list (reverse faces)))))
-
 (defun parse-box-fact (form row number)
   "Return the box fact that FORM, the value NUMBER of the key ROW, spells; or complain."
   (let* ((elements (and (consp form) form))
@@ -68,7 +53,8 @@
            (refuse-fact row number form "a fact can't be negated; leave it out, since what a box ~
                                        does not say is false"))
           (t
-           (let ((face-list (fact-faces list row number (length words))))
+           (let ((face-list (parse-faces list row "occurs twice in one list of faces" number
+                                         (length words))))
              (and face-list
                   (make-box-fact (format nil "~{~a~^ ~}" (mapcar #'symbol-name names)) face-list
                                  (value-spot row number))))))))

@@ -315,18 +315,25 @@ rest of its clause, give.  NIL after a complaint."))
                   parentheses of their own~]"
             (value-text *notation* value) (consp value)))
 
-(defmethod parse-values ((type (eql :faces)) row values)
-  (let ((set 0) (good t))
+(defun parse-faces (values row twice &rest spot)
+  "Return the faces that VALUES of the key ROW name, as a face list; NIL after complaints.  TWICE says
+what is wrong with one that is there twice.  SPOT are the numbers of the place of VALUES, for
+VALUE-SPOT."
+  (let ((faces '()) (good t))
     (loop for value in values
           for number from 0
-          do (let ((face (face-named value)))
-               (cond ((null face)
-                      (setf good (refuse-face value (value-spot row number))))
-                     ((logbitp face set)
-                      (setf good (complain (value-spot row number) "~a is constrained twice"
-                                           (value-text *notation* value))))
-                     (t (setf set (logior set (ash 1 face)))))))
-    (and good set)))
+          for face = (face-named value)
+          do (if (and face (not (member face faces)))
+                 (push face faces)
+                 (let ((place (apply #'value-spot row (append spot (list number)))))
+                   (setf good (if face
+                                  (complain place "~a ~a" (value-text *notation* value) twice)
+                                  (refuse-face value place))))))
+    (and good (make-face-list (reverse faces)))))
+
+(defmethod parse-values ((type (eql :faces)) row values)
+  (let ((faces (parse-faces values row "is constrained twice")))
+    (and faces (face-list-mask faces))))
 
 (defun key-value (row values)
   "Return the value of the key ROW that VALUES, the rest of its clause, give.  NIL after a
