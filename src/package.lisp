@@ -14,7 +14,7 @@
   (:import-from :supergrip-statics #:exact-radius #:holds-p #:contact-forces #:wrench-entries
                 #:least-squeeze #:least-friction #:sure-radius #:sure #:make-grip #:set-finger
                 #:computable-p #:same-contacts-p #:grip-power #:grip-radius #:grip-holds-p
-                #:grip-closed-p #:grip-squeeze
+                #:grip-closed-p #:grip-squeeze #:six #:make-six
                 #:grip-least-friction #:grip-entry #:grip-entries #:mobility)
   (:implement :supergrip :supergrip-data :supergrip-chainer)
   (:lock t)

@@ -2,8 +2,8 @@
 
 (in-package :supergrip)
 
-(deftype six () "Six numbers: along X Y Z, about X Y Z." '(simple-array double-float (6)))
 (deftype three () "Three numbers: along X Y Z." '(simple-array double-float (3)))
+(defun make-three () (make-array 3 :element-type 'double-float :initial-element 0d0))
 
 (defstruct (box (:conc-name %box-) (:constructor %make-box) (:copier nil) (:predicate box-p))
   "A box and what is to be done with it.  SIZE along X Y Z in cm; WEIGHT in finger forces;

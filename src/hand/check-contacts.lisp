@@ -149,7 +149,7 @@ MOST; if it is not, note by how much."
   "Return the contacts of GRASP that are on no box that was looked at, or farther out than MOST,
 strays, and how many boxes its conditions allowed.  HAND is how large boxes are about, in cm."
   (let ((registers (copy-seq (graspbase-registers graspbase)))
-        (centre (make-array 3 :element-type 'double-float)) (left (strays-of grasp)) (count 0))
+        (centre (make-three)) (left (strays-of grasp)) (count 0))
     (without-float-traps
       (block looking
         (map-boxes (lambda ()

@@ -154,7 +154,7 @@ one of them is NIL.  They never fall as one of the nodes RISING rises."
 
 (defun inward-normal (grasp-face)
   "Return the inward normal of GRASP-FACE along N O A, a three."
-  (let ((normal (make-array 3 :element-type 'double-float :initial-element 0d0)))
+  (let ((normal (make-three)))
     (setf (aref normal (floor grasp-face 2)) (if (evenp grasp-face) -1d0 1d0))
     normal))
 

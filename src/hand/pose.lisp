@@ -78,7 +78,7 @@ complain."
 and would tell apart what is the same.")
 
 (defparameter +upright+ (coerce '(0d0 0d0 -1d0) 'three) "Where down is for a box without a pose.")
-(defparameter +box-centre+ (coerce '(0d0 0d0 0d0) 'three))
+(defparameter +box-centre+ (make-three))
 
 (defun pose-matrix (pose)
   "Return the matrix of the rotation of POSE: its columns are the axes of the box in the world."
@@ -102,8 +102,7 @@ centre."
 
 (defun gravity-on (box)
   "Return the wrench of the weight of BOX about its centre, an array of six."
-  (let ((wrench (make-array 6 :element-type 'double-float))
-        (centre (%box-mass-centre box)))
+  (let ((wrench (make-six)) (centre (%box-mass-centre box)))
     (flet ((torque (i j k)
              (setf (aref wrench (+ 3 i)) (+ 0d0 (- (* (aref centre j) (aref wrench k))
                                                    (* (aref centre k) (aref wrench j)))))))

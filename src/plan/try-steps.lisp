@@ -47,9 +47,6 @@ and a log: the best candidate, or NIL."
       (refuse-argument "index is ~a, but must be ~{~s~^ or ~}" (form-text name)
                        (mapcar #'index-name *indices*))))
 
-(defun make-six () (make-array 6 :element-type 'double-float :initial-element 0d0))
-(defun make-three () (make-array 3 :element-type 'double-float :initial-element 0d0))
-
 (defstruct (workspace (:constructor %make-workspace (registers tried)))
   "All that trying grasps on one box needs and leaves: the registers, what was tried of each grasp
 (a set of matchings), and the BEST candidate.  The arrays are the current candidate's, in the box
