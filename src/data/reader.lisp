@@ -54,11 +54,16 @@ may have.  TRACK tells where each part of the record begins (see NOTE-PLACE)."
   "Return the line on which the record read last, or being read, begins."
   (source-record-start-line source))
 
+(defun refuse-syntax (place control &rest arguments)
+  "Signal a SYNTAX-ERROR that says what CONTROL and ARGUMENTS say.  PLACE gives the keys of its problem
+that say where."
+  (error 'syntax-error
+         :problems (list (apply #'make-problem :text (apply #'plain-text control arguments) place))))
+
 (defun fail-at (source line column control &rest arguments)
   "Signal a SYNTAX-ERROR at LINE and COLUMN of SOURCE that says what CONTROL and ARGUMENTS say."
-  (error 'syntax-error
-         :problems (list (make-problem :file (source-name source) :line line :column column
-                                       :text (apply #'plain-text control arguments)))))
+  (apply #'refuse-syntax (list :file (source-name source) :line line :column column)
+         control arguments))
 
 (defun fail (source control &rest arguments)
   "Signal a SYNTAX-ERROR where SOURCE stands, as FAIL-AT does."
@@ -452,8 +457,7 @@ line, too."
 ;;; Forms that come from the Lisp reader
 
 (defun refuse-form (control &rest arguments)
-  (error 'syntax-error
-         :problems (list (make-problem :text (apply #'plain-text control arguments)))))
+  (apply #'refuse-syntax '() control arguments))
 
 (defun refuse-entry (entry)
   (refuse-form "~a can't stand here: in a backquoted list stand numbers, and forms with a comma, ~

@@ -253,17 +253,14 @@ its being read is among its problems."
 (defun file-source (text name)
   "Return a source that reads TEXT, that of the file NAME.  Signals a SYNTAX-ERROR if it can't be
 read."
-  (flet ((refuse (control &rest arguments)
-           (error 'syntax-error
-                  :problems (list (make-problem :file name
-                                                :text (apply #'plain-text control arguments))))))
-    (cond ((utf-16-p text 0 (length text))
-           (refuse "this file is UTF-16, but must be UTF-8; iconv -f UTF-16 -t UTF-8 converts ~
-                    it"))
-          ((> (length text) (room-for (length text)))
-           (refuse "this file is longer than the ~d characters that the heap has room for; ~
-                    --dynamic-space-size makes the heap larger" (room-for (length text))))
-          (t (string-source text :name name)))))
+  (cond ((utf-16-p text 0 (length text))
+         (refuse-syntax (list :file name) "this file is UTF-16, but must be UTF-8; iconv -f UTF-16 ~
+                                           -t UTF-8 converts it"))
+        ((> (length text) (room-for (length text)))
+         (refuse-syntax (list :file name) "this file is longer than the ~d characters that the heap ~
+                                           has room for; --dynamic-space-size makes the heap larger"
+                        (room-for (length text))))
+        (t (string-source text :name name))))
 
 (defun accept-knowledge (make &optional told)
   "Return the knowledge that MAKE, a function that returns it and a list of problems, makes.
