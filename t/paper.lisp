@@ -69,7 +69,8 @@ TWIST (0.8 0.5 1 0.2 1 1)))"))
          (printed (paper-form "(SETQ PINCH-2-PARALLEL" "(SETQ BOX" *grasp-repairs*))
          (graspbase (multiple-value-bind (value problems)
                         (supergrip-data:with-problems
-                          (supergrip::build-graspbase (list gripper printed)))
+                          (supergrip::build-graspbase
+                           (list printed) (supergrip::build-gripper (list gripper))))
                       (is (null problems))
                       value))
          (grasp (first (supergrip::graspbase-grasps graspbase))))

@@ -22,7 +22,7 @@
     (multiple-value-bind (graspbase problems)
         (supergrip-data:with-problems
           (supergrip::build-graspbase
-           (cons `(:setq :gripper (:quote ,gripper)) (rest forms))))
+           (rest forms) (supergrip::build-gripper (list `(:setq :gripper (:quote ,gripper))))))
       (assert (null problems) () "~{~a~%~}" problems)
       graspbase)))
 

@@ -497,9 +497,9 @@ known all the same, so that no form is blamed for them."
   (loop for entry in (append (scope-dimensions scope) (scope-absent scope))
         append (reverse (gethash entry (scope-uses scope)))))
 
-(defun build-graspbase (forms &optional (gripper (build-gripper forms)))
-  "Return the graspbase of FORMS, those of a grasp file, in their order, and of GRIPPER, by default
-that among them.  Forms that are wrong are left out after a complaint (see WITH-PROBLEMS)."
+(defun build-graspbase (forms gripper)
+  "Return the graspbase of FORMS, those of a grasp file, in their order, and of GRIPPER.  Forms that
+are wrong are left out after a complaint (see WITH-PROBLEMS)."
   (let* ((rows (known-dimensions forms))
          (scope (global-scope gripper rows))
          (drafts '()) (broken '())

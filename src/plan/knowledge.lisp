@@ -70,12 +70,11 @@ reading it."
 (defun build-grasps (grasp-file gripper-file)
   "Return the graspbase of GRASP-FILE and, if that is not NIL, of the gripper in GRIPPER-FILE."
   (with-plain-floats
-    (let ((gripper (and gripper-file
-                        (with-data-file (gripper-file)
-                          (build-gripper (data-file-forms gripper-file) :alone t)))))
+    (let* ((source (or gripper-file grasp-file))
+           (gripper (with-data-file (source)
+                      (build-gripper (data-file-forms source) :alone gripper-file))))
       (with-data-file (grasp-file)
-        (let ((forms (data-file-forms grasp-file)))
-          (if gripper (build-graspbase forms gripper) (build-graspbase forms)))))))
+        (build-graspbase (data-file-forms grasp-file) gripper)))))
 
 (defun threshold-uses (forms)
   "Return the DIMENSION-USEs of the rules FORMS: of the thresholds of the preliminary assertions
@@ -286,25 +285,25 @@ calls READ again, and CONTINUE, which goes on without the rules and grasps that 
         (return (values (funcall read)))))))
 
 (defun hand-file (hand name)
-  "Return the file NAME of the folder HAND, as a path or as a string, as HAND is."
-  (cond ((stringp hand) (format nil "~a/~a" (string-right-trim "/" hand) name))
-        (t (merge-pathnames name (native-path hand :directory t)))))
+  "Return the file NAME of the folder HAND, as a path or as a string, as HAND is; and true if it is
+there."
+  (let ((file (if (stringp hand)
+                  (format nil "~a/~a" (string-right-trim "/" hand) name)
+                  (merge-pathnames name (native-path hand :directory t)))))
+    (values file (probe-file (native-path file)))))
 
 (defun knowledge-file (name hand)
   "Return the file NAME of the folder HAND, or, if that is NIL or lacks it, the one that is
 shipped."
-  (let ((file (and hand (hand-file hand name))))
-    (if (and file (probe-file (native-path file)))
-        file
-        (shipped-file name))))
+  (multiple-value-bind (file there) (and hand (hand-file hand name))
+    (if there file (shipped-file name))))
 
 (defun hand-gripper (hand)
   "Return the file gripper.lisp of the folder HAND; NIL if it lacks that and has grasps.lisp, which
 may hold the gripper, too."
-  (let ((gripper (hand-file hand "gripper.lisp")))
-    (flet ((there-p (file) (probe-file (native-path file))))
-      (and (or (there-p gripper) (not (there-p (hand-file hand "grasps.lisp"))))
-           gripper))))
+  (multiple-value-bind (gripper there) (hand-file hand "gripper.lisp")
+    (and (or there (not (nth-value 1 (hand-file hand "grasps.lisp"))))
+         gripper)))
 
 (defun load-knowledge (&key hand
                          (rules (knowledge-file "rules.lisp" hand))
