@@ -2,6 +2,12 @@
 
 (in-package :supergrip)
 
+(defun contacts-and-sure (candidate plan)
+  "Return what CANDIDATE-CONTACTS and CANDIDATE-SURE do of CANDIDATE, which is possible in PLAN: it
+is taken through the steps again once for both."
+  (with-replay (workspace candidate plan)
+    (values (contacts-of candidate workspace) (sure-of candidate workspace))))
+
 (defun plan-record (plan &key line all refine)
   "Return the record of PLAN, a plist of strings, numbers, lists and NIL:
 

@@ -90,10 +90,3 @@ the end are dropped."
 (defun three-decimals (number)
   "Return NUMBER with three decimals, as 0.770."
   (format nil "~,3f" number))
-
-(defun short-decimal (number)
-  "Return NUMBER rounded to three decimals, zeros at the end dropped but one: 0.86, 1.0."
-  (let* ((text (string-right-trim "0" (three-decimals number))))
-    (if (char= (char text (1- (length text))) #\.)
-        (concatenate 'string text "0")
-        text)))

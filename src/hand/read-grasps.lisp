@@ -326,11 +326,6 @@ coordinates that the turn changes are always 0."
 
 (defun computed-p (node) (eq (node-kind node) :computed))
 
-(defun computes-p (grasp)
-  "True if GRASP asks for a computation."
-  (or (computed-p (draft-wrench (grasp-draft grasp)))
-      (computed-p (draft-twist (grasp-draft grasp)))))
-
 (defun same-draft-p (draft kind turn)
   "True if the forms of DRAFT surely say the same after TURN, of KIND.  What is computed follows
 from the contacts.  A half-turn may exchange these, as far as six entries can tell."

@@ -169,12 +169,6 @@ force."
     (sure (workspace-wrench workspace) (%box-force box) (gravity-on box)
           (%candidate-x candidate) (%candidate-y candidate) (%candidate-z candidate))))
 
-(defun contacts-and-sure (candidate plan)
-  "Return what CANDIDATE-CONTACTS and CANDIDATE-SURE do of CANDIDATE, which is possible in PLAN: it
-is taken through the steps again once for both."
-  (with-replay (workspace candidate plan)
-    (values (contacts-of candidate workspace) (sure-of candidate workspace))))
-
 (defun candidate-palm (candidate)
   "Return the name of the box face that the palm of CANDIDATE is over."
   (face-name (svref (matching-faces (%candidate-matching candidate))

@@ -150,17 +150,6 @@ and the list of all problems.  What is wrong is left out."
     (loop for form in forms
           collect (if (gripper-form-p form) (changed form) form))))
 
-(defun knowledge-with-dimension (knowledge name value)
-  "Return KNOWLEDGE with VALUE for the dimension NAME of the gripper, or NIL if that is not valid."
-  (flet ((edited (file)
-           (edited-file file (lambda (forms) (with-dimension name value forms)))))
-    (let ((grasps (knowledge-grasp-file knowledge)) (gripper (knowledge-gripper-file knowledge)))
-      (multiple-value-bind (changed problems)
-          (build-knowledge (knowledge-rule-file knowledge)
-                           (if gripper grasps (edited grasps))
-                           (and gripper (edited gripper)))
-        (and (null (errors-in problems)) changed)))))
-
 ;;; What can't be meant
 
 (defun check-knowledge (graspbase rulebase rule-file grasp-file)

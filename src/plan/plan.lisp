@@ -47,7 +47,7 @@ that is no plan."))
   (index :paper :type keyword :read-only t)
   (stop nil :read-only t)
   (best nil :read-only t)
-  (entries '() :type list :read-only t) ; see DO-LOG
+  (entries '() :type list :read-only t) ; in order: see PLAN-LOG
   (facts nil :type (or null saved-facts) :read-only t)
   (tries '() :type list :read-only t))  ; if no rule ran, what was tried: see TRY-WITHOUT-RULES
 
@@ -108,11 +108,6 @@ or NIL."
       (cond (rule (rule-name rule))
             (grasp (grasp-name grasp))))))
 
-(defun fact-form-p (object)
-  "True if OBJECT is a list, or a string that spells one, and no rule or grasp in force."
-  (or (and (consp object) (null (name-of object)))
-      (and (stringp object) (find #\( object))))
-
 (defun listed (names &optional (most 40) (between ", "))
   "Return NAMES, a list of strings, with BETWEEN between them; of many the first MOST, and how many
 more."
@@ -123,16 +118,6 @@ more."
                (when others (write-string between out)))
       (when (plusp left)
         (format out "and ~d more" left)))))
-
-(defmacro do-log ((log) (candidate &body candidate-body) (event &body event-body))
-  "Go through LOG, that of a plan or what an action added to it, in order: run CANDIDATE-BODY with
-CANDIDATE each grasp that was tried, and EVENT-BODY with EVENT each fact that a rule remembered (see
-EVENT-FACT)."
-  (let ((entry (gensym "ENTRY")))
-    `(dolist (,entry ,log)
-       (if (candidate-p ,entry)
-           (let ((,candidate ,entry)) ,@candidate-body)
-           (let ((,event ,entry)) ,@event-body)))))
 
 (defun plan-events (plan)
   "Return the events of PLAN, each a fact that a rule remembered, a new list in order: see

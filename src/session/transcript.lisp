@@ -2,6 +2,16 @@
 
 (in-package :supergrip)
 
+(defmacro do-log ((log) (candidate &body candidate-body) (event &body event-body))
+  "Go through LOG, that of a plan or what an action added to it, in order: run CANDIDATE-BODY with
+CANDIDATE each grasp that was tried, and EVENT-BODY with EVENT each fact that a rule remembered (see
+EVENT-FACT)."
+  (let ((entry (gensym "ENTRY")))
+    `(dolist (,entry ,log)
+       (if (candidate-p ,entry)
+           (let ((,candidate ,entry)) ,@candidate-body)
+           (let ((,event ,entry)) ,@event-body)))))
+
 (defun write-event (event rulebase stream)
   "Write EVENT of a log, the fact that a rule remembered."
   (multiple-value-bind (predicate face-list) (event-fact event rulebase)
@@ -16,6 +26,13 @@
             (candidate-grasp candidate) (quality-sign candidate)
             (three-decimals (candidate-quality candidate))
             (candidate-matching candidate))))
+
+(defun short-decimal (number)
+  "Return NUMBER rounded to three decimals, zeros at the end dropped but one: 0.86, 1.0."
+  (let* ((text (string-right-trim "0" (three-decimals number))))
+    (if (char= (char text (1- (length text))) #\.)
+        (concatenate 'string text "0")
+        text)))
 
 (defun write-verdict (plan stream)
   "Write the paper's closing lines: which grasp of PLAN is the best, or why there is none."

@@ -19,6 +19,11 @@
 (defconstant +most-dear-intervals+ 60 "The same as +MOST-INTERVALS+ where plans take milliseconds.")
 (defconstant +dear-steps+ 40 "The same as +STEPS+ there.")
 
+(defun computes-p (grasp)
+  "True if GRASP asks for a computation."
+  (or (computed-p (draft-wrench (grasp-draft grasp)))
+      (computed-p (draft-twist (grasp-draft grasp)))))
+
 (defun dear-p (plan)
   "True if a plan like PLAN takes milliseconds: a grasp of its knowledge asks for computations."
   (loop for grasp in (knowledge-grasps (plan-knowledge plan))
@@ -409,6 +414,17 @@ it, the name of that and itself; or NIL."
           when (and relation
                     (decides-p name (* number (if up 1.000001d0 0.999999d0)) line goal place))
             return (list relation name number))))
+
+(defun knowledge-with-dimension (knowledge name value)
+  "Return KNOWLEDGE with VALUE for the dimension NAME of the gripper, or NIL if that is not valid."
+  (flet ((edited (file)
+           (edited-file file (lambda (forms) (with-dimension name value forms)))))
+    (let ((grasps (knowledge-grasp-file knowledge)) (gripper (knowledge-gripper-file knowledge)))
+      (multiple-value-bind (changed problems)
+          (build-knowledge (knowledge-rule-file knowledge)
+                           (if gripper grasps (edited grasps))
+                           (and gripper (edited gripper)))
+        (and (null (errors-in problems)) changed)))))
 
 (defun decides-p (name number line goal place)
   "True if GOAL were not true at PLACE if the dimension NAME, there, were NUMBER, a little beyond

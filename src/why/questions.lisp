@@ -3,6 +3,11 @@
 
 (in-package :supergrip)
 
+(defun fact-form-p (object)
+  "True if OBJECT is a list, or a string that spells one, and no rule or grasp in force."
+  (or (and (consp object) (null (name-of object)))
+      (and (stringp object) (find #\( object))))
+
 (defun asked-fact (object plan)
   "Return the fact that OBJECT is in a question about PLAN: a list, a string of one, or the one word
 of a sentence without faces, if that names no rule or grasp.  NIL if it is none."
