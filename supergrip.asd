@@ -122,6 +122,7 @@
                              (:file "output-buffer")
                              (:file "carried-data")
                              (:file "record")
+                             (:file "error-recovery")
                              (:file "batch")
                              (:file "options")
                              (:file "main")))
@@ -175,8 +176,7 @@
                              (:file "names")
                              (:file "files")
                              (:file "numbers")
-                             (:file "reader")
-                             (:file "error-recovery")))
+                             (:file "reader")))
                (:module "chainer"
                 :serial t
                 :components ((:file "package")

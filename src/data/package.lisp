@@ -32,7 +32,7 @@ wrong in them.")
    #:source #:string-source #:source-line #:source-column #:source-name
    #:read-datum #:skip-blanks #:end-of-data #:read-all #:record-start-line
    #:peek #:source-buffer #:source-position #:source-end #:utf-16-p
-   #:skip-to-record #:skip-record #:make-source #:part-place #:+mark+
+   #:skip-to-record #:make-source #:part-place #:+mark+
    #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*
    ;; the tools of readers
    #:next #:refuse-syntax #:fail #:fail-at #:deeper #:start-record #:end-record #:note-place #:skip-mark

@@ -1,6 +1,6 @@
 ;;;; error-recovery.lisp -- going on after an error in a record.
 
-(in-package :supergrip-data)
+(in-package :supergrip)
 
 (defun skip-record (source)
   "Skip what is left of a record in which READ-DATUM has found an error: as far as the parenthesis
