@@ -167,6 +167,10 @@ Signals a BOX-ERROR that holds all that is wrong with it."
                      (error 'box-error :problems (input-error-problems condition))))
                  file line))
 
+(defun box-of (box)
+  "Return BOX if it is one, or the box that it describes."
+  (if (box-p box) box (parse-box box)))
+
 (defun canonical-box (form file line)
   "Return the box of FORM, as the data reader returns it, or signal a BOX-ERROR."
   (multiple-value-bind (values problems)

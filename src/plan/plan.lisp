@@ -152,7 +152,7 @@ proved (see docs/physics.md).  MARGIN, a number above 0, multiplies the weight o
 if they are absolute, as in (UNITS CM N).
 A box that can't be grasped is a result: see PLAN-VERDICT.  Safe to call from several threads."
   (with-plain-floats
-    (let ((memory (start-plan (if margin (box-at-margin box margin) box) knowledge gamma index)))
+    (let ((memory (start-plan (box-at-margin box margin) knowledge gamma index)))
       (finish-plan memory knowledge (run-rules (knowledge-rulebase knowledge) memory)))))
 
 (defun try-grasp (name &rest arguments)
@@ -210,7 +210,7 @@ facts of BOX, and its workspace has tried nothing yet.  Return it."
 
 (defun ready-box (box knowledge)
   "Return BOX, or the box that it describes, ready for plans with KNOWLEDGE."
-  (let ((box (if (box-p box) box (parse-box box))))
+  (let ((box (box-of box)))
     (if (%box-units box)
         (box-for-gripper box (knowledge-graspbase knowledge)
                          (or (data-file-name (gripper-source knowledge)) "the grasp file"))
@@ -218,8 +218,7 @@ facts of BOX, and its workspace has tried nothing yet.  Return it."
 
 (defun box-at-margin (box margin)
   "Return BOX, or the box that it describes, with MARGIN; with NIL as it is."
-  (let ((box (if (box-p box) box (parse-box box))))
-    (if margin (box-with-margin box margin) box)))
+  (if margin (box-with-margin (box-of box) margin) (box-of box)))
 
 (defun spare-memory (knowledge)
   "Return an empty memory for the rules of KNOWLEDGE: one that another plan gave back, or a new

@@ -65,7 +65,7 @@ function of the two plans, returns that."
 (defun compare-boxes (old new boxes gamma index stream)
   (let ((differences
           (loop for given in boxes
-                for box = (if (box-p given) given (parse-box given))
+                for box = (box-of given)
                 for difference = (make-plans-difference box #'plan-difference old new gamma
                                                              '() index)
                 when difference collect difference)))

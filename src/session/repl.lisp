@@ -12,7 +12,7 @@
                               (when *box*
                                 (setf (input-error-consequence condition)
                                       "The current box stays as it was.")))))
-    (setf *box* (if (box-p description) description (parse-box description)))))
+    (setf *box* (box-of description))))
 
 (define-symbol-macro box (current-box))
 
