@@ -76,16 +76,13 @@ level, as the grasp that it tries.")
 if no action has it."
   (or (find-symbol (string verb) :keyword) verb))
 
-(defun adjoin-last (verb verbs)
-  (if (member verb verbs :test #'string=) verbs (append verbs (list verb))))
-
 (defmacro define-action (verb (action client) &body body)
   "Define the action VERB, a keyword.  BODY checks the ACTION-OPERANDS of ACTION, and returns what
 FINISH-ACTION makes of it, or NIL after complaints.  Its function must not keep the memory that it
 is called with, which serves other runs, too; and it may be called again when a question about the
 run is asked."
   `(progn
-     (setf *action-verbs* (adjoin-last ,(symbol-name verb) *action-verbs*))
+     (setf *action-verbs* (with-row ,(symbol-name verb) *action-verbs* #'identity))
      (defmethod compile-action ((verb (eql ,verb)) ,action ,client)
        (declare (ignorable ,client))
        ,@body)))
