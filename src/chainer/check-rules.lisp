@@ -26,24 +26,19 @@ WORDS and its SURFACES, sorted, each as one text."
 (defun rule-uses (form number)
   "Return the sentences that the rule FORM tests, and those that it remembers."
   (let ((name (and (namep (second form)) (symbol-name (second form)))))
-    (flet ((parts (key)
-             (rest (find-if (lambda (part) (part-p part key)) form)))
-           (proper (part) (and (consp part) (listp (cdr (last part))))))
-      (values (loop for clause in (parts "IF")
-                    for k from 1
-                    for use = (and (proper clause)
-                                   (sentence-use clause clause number name
-                                                 (format nil "clause ~d" k)))
-                    when use collect use)
-              (loop for action in (parts "THEN")
-                    for k from 1
-                    for sentence = (and (proper action) (namep (first action))
-                                        (action-conclusion (verb-key (first action))
-                                                           (rest action)))
-                    for use = (and sentence
-                                   (sentence-use sentence action number name
-                                                 (format nil "action ~d" k)))
-                    when use collect use)))))
+    (flet ((uses (key label sentence-of)
+             (loop for part in (rest (find-if (lambda (part) (part-p part key)) form))
+                   for k from 1
+                   for sentence = (and (consp part) (listp (cdr (last part)))
+                                       (funcall sentence-of part))
+                   for use = (and sentence (sentence-use sentence part number name
+                                                         (format nil "~a ~d" label k)))
+                   when use collect use)))
+      (values (uses "IF" "clause" #'identity)
+              (uses "THEN" "action" (lambda (action)
+                                      (and (namep (first action))
+                                           (action-conclusion (verb-key (first action))
+                                                              (rest action)))))))))
 
 (defun collect-uses (forms)
   "Return all tests and all conclusions of the rules FORMS."
@@ -151,13 +146,20 @@ INPUTS are the predicates that the input always provides, as in BUILD-RULEBASE."
   (multiple-value-bind (tests conclusions) (collect-uses forms)
     (let* ((declared (input-uses forms inputs))
            (provided (loop for use in declared collect (list (list (use-words use)))))
-           (sources (collect-sources conclusions (append inputs provided))))
+           (sources (collect-sources conclusions (append inputs provided)))
+           (tested (tested-words tests)))
       (dolist (test tests)
         (or (check-provided test sources)
             (check-order test sources)))
       (check-contradictions tests)
-      (check-unused tests conclusions sources)
-      (check-untested declared tests))))
+      (check-unused conclusions tested sources)
+      (check-untested declared tested))))
+
+(defun tested-words (tests)
+  "Return a table of the words of TESTS."
+  (let ((tested (make-hash-table :test #'equal)))
+    (dolist (test tests tested)
+      (setf (gethash (use-words test) tested) t))))
 
 (defun input-uses (forms inputs)
   "Return the sentences that the (INPUT ...) forms among FORMS declare, without those of INPUTS."
@@ -166,27 +168,22 @@ INPUTS are the predicates that the input always provides, as in BUILD-RULEBASE."
         for use = (sentence-use (rest form) form nil (input-subject form) nil)
         when (and use (not (member (use-words use) given :test #'string=))) collect use))
 
-(defun check-untested (declared tests)
-  "Warn of what is DECLARED, uses, and what none of TESTS tests."
-  (let ((tested (make-hash-table :test #'equal)))
-    (dolist (test tests)
-      (setf (gethash (use-words test) tested) t))
-    (dolist (use declared)
-      (unless (or (refused-p (use-name use)) (gethash (use-words use) tested))
-        (let ((*subject* (use-name use)) (*place* nil))
-          (complain (use-form use) '(:warning "no rule tests it")))))))
+(defun check-untested (declared tested)
+  "Warn of what is DECLARED, uses, and not among the words TESTED."
+  (dolist (use declared)
+    (unless (or (refused-p (use-name use)) (gethash (use-words use) tested))
+      (let ((*subject* (use-name use)) (*place* nil))
+        (complain (use-form use) '(:warning "no rule tests it"))))))
 
-(defun check-unused (tests conclusions sources)
-  "Warn of conclusions that no rule tests and that look like something known that one does."
-  (let ((tested (make-hash-table :test #'equal)))
-    (dolist (test tests)
-      (when (provided-p (use-words test) sources)
-        (setf (gethash (use-words test) tested) t)))
-    (let ((texts (sort (loop for words being the hash-keys of tested collect words) #'string<)))
-      (dolist (conclusion conclusions)
-        (unless (gethash (use-words conclusion) tested)
-          (let ((close (suggestion (use-words conclusion) texts)))
-            (unless (string= close "")
-              (about-use (conclusion)
-                (complain (use-form conclusion) '(:warning "no rule tests ~a~a")
-                          (use-words conclusion) close)))))))))
+(defun check-unused (conclusions tested sources)
+  "Warn of CONCLUSIONS that are not among the words TESTED and look like something known that is."
+  (let ((texts (sort (loop for words being the hash-keys of tested
+                           when (provided-p words sources) collect words)
+                     #'string<)))
+    (dolist (conclusion conclusions)
+      (unless (gethash (use-words conclusion) tested)
+        (let ((close (suggestion (use-words conclusion) texts)))
+          (unless (string= close "")
+            (about-use (conclusion)
+              (complain (use-form conclusion) '(:warning "no rule tests ~a~a")
+                        (use-words conclusion) close))))))))
