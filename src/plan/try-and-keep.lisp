@@ -30,20 +30,17 @@ BINDING; FACES says which, see VARIABLE-FACES."
   "Return the terms of the suggested matching in OPERANDS, NIL for each that is ?; or complain, and
 return true as the second value."
   (let ((list (first operands)))
-    (cond ((null operands) '())
-          ((or (rest operands) (not (consp list)) (/= (length list) 6))
-           (when (consp list)
-             (parse-surfaces (remove-if (lambda (element) (name= element "?")) list) nil))
-           (complain (action-form action) "a suggested matching is one list of six, for N1 N2 O1 ~
-                                           O2 A1 A2, with ? for any: (? s3 s1 s2 ? s4)")
-           (values nil t))
-          (t
-           (multiple-value-bind (terms bad)
-               (parse-surfaces (remove-if (lambda (element) (name= element "?")) list) nil)
-             (if bad
-                 (values nil t)
-                 (loop for element in list
-                       collect (if (name= element "?") nil (pop terms)))))))))
+    (flet ((any-p (element) (name= element "?")))
+      (multiple-value-bind (terms bad)
+          (and (consp list) (parse-surfaces (remove-if #'any-p list) nil))
+        (cond ((null operands) '())
+              ((or (rest operands) (not (consp list)) (/= (length list) 6))
+               (complain (action-form action) "a suggested matching is one list of six, for N1 N2 ~
+                                               O1 O2 A1 A2, with ? for any: (? s3 s1 s2 ? s4)")
+               (values nil t))
+              (bad (values nil t))
+              (t (loop for element in list
+                       collect (if (any-p element) nil (pop terms)))))))))
 
 (defun compile-try (action grasp)
   "Return ACTION, finished, which tries GRASP; NIL after a complaint of its suggestion."
