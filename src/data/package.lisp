@@ -30,7 +30,7 @@ wrong in them.")
    #:form-text #:as-double #:cut-text #:visible-text #:invisible-p #:code-text
    ;; reader
    #:source #:string-source #:source-line #:source-column #:source-name
-   #:read-datum #:skip-blanks #:end-of-data #:read-all #:record-start-line
+   #:read-datum #:skip-blanks #:end-of-data #:read-all
    #:peek #:source-buffer #:source-position #:source-end #:utf-16-p
    #:skip-to-record #:make-source #:part-place #:+mark+
    #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*

@@ -50,10 +50,6 @@ may have.  TRACK tells where each part of the record begins (see NOTE-PLACE)."
   "Return the column, from 1, of the next character."
   (1+ (- (+ (source-offset source) (source-position source)) (source-line-offset source))))
 
-(defun record-start-line (source)
-  "Return the line on which the record read last, or being read, begins."
-  (source-record-start-line source))
-
 (defun refuse-syntax (place control &rest arguments)
   "Signal a SYNTAX-ERROR that says what CONTROL and ARGUMENTS say.  PLACE gives the keys of its problem
 that say where."
@@ -449,7 +445,7 @@ line, too."
                                           (make-symbol (form-text datum))
                                           datum)))
                             (when (namep form)
-                              (setf (gethash form lines) (record-start-line source)))
+                              (setf (gethash form lines) (source-record-start-line source)))
                             form))
             lines
             comments)))

@@ -112,20 +112,15 @@ gripper gives, 0 if none."
   (predicate nil :type predicate :read-only t)
   (threshold 0d0 :type double-float :read-only t))
 
-(defun absent-threshold (row graspbase)
-  "Return the name of the dimension that is the threshold of ROW, if the gripper of GRASPBASE lacks
-it; else NIL."
-  (let ((name (input-row-dimension row)))
-    (and name (not (dimension graspbase name)) name)))
-
 (defun prepare-inputs (rulebase graspbase)
   "Return the preliminary assertions, ready for the rules of RULEBASE and the gripper of GRASPBASE.
 One whose threshold the gripper lacks is left out, as no rule of RULEBASE tests it."
   (loop for row in *inputs*
         for name = (input-row-dimension row)
-        unless (absent-threshold row graspbase)
+        for threshold = (if name (dimension graspbase name) 0d0)
+        when threshold
           collect (make-prepared-input row (find-predicate rulebase (list (input-row-name row)))
-                                       (if name (dimension graspbase name) 0d0))))
+                                       threshold)))
 
 (defun assert-box (memory inputs box)
   "Put into MEMORY what INPUTS, prepared, say of BOX."
