@@ -256,16 +256,12 @@ LEAST-FRICTION."
   "Return what a finger at POSITION with the inward NORMAL, lists of three, can do at most in
 MOTION, a list of six, by pressing, by friction U and by its tip's torque V: nothing if it can't
 help."
-  (destructuring-bind (vx vy vz wx wy wz) motion
-    (destructuring-bind (x y z) position
-      (let* ((velocity (list (+ vx (- (* wy z) (* wz y)))
-                             (+ vy (- (* wz x) (* wx z)))
-                             (+ vz (- (* wx y) (* wy x)))))
-             (along (reduce #'+ (mapcar #'* normal velocity)))
-             (across (loop for k in velocity for n in normal sum (expt (- k (* along n)) 2)))
-             (powers (list along (* u (sqrt across))
-                           (* v (abs (reduce #'+ (mapcar #'* normal (list wx wy wz))))))))
-        (if (plusp (reduce #'+ powers)) powers '(0d0 0d0 0d0))))))
+  (let* ((spin (nthcdr 3 motion))
+         (velocity (mapcar #'+ motion (cross-product spin position)))
+         (along (dot-product normal velocity))
+         (across (loop for k in velocity for n in normal sum (expt (- k (* along n)) 2)))
+         (powers (list along (* u (sqrt across)) (* v (abs (dot-product normal spin))))))
+    (if (plusp (reduce #'+ powers)) powers '(0d0 0d0 0d0))))
 
 (defun candidate-powers (candidate motion &optional (plan *plan*))
   "Return the greatest power of the contacts of CANDIDATE of PLAN in MOTION, a list of six, such as
@@ -278,4 +274,4 @@ there."
                           collect (finger-powers (getf contact :position) (getf contact :normal)
                                                  (%box-friction box) (%box-soft-friction box)
                                                  motion)))
-            (list (reduce #'+ (map 'list #'* (gravity-on box) motion))))))
+            (list (dot-product (coerce (gravity-on box) 'list) motion)))))

@@ -113,9 +113,6 @@ NEED    six numbers, forces along X Y Z and torques about X Y Z: the task ellips
 
 The ellipsoid reaches farthest in MOTION at the wrench whose components are these shares of the
 needs.  If MOTION moves nothing that is needed, they are the shares in MOTION itself."
-  (let* ((needed (mapcar #'* motion need))
-         (parts (if (every #'zerop needed) motion needed))
-         (most (reduce #'max parts :key #'abs))
-         (parts (mapcar (lambda (part) (/ part most)) parts))
-         (length (sqrt (reduce #'+ (mapcar #'* parts parts)))))
-    (mapcar (lambda (part) (/ part length)) parts)))
+  (let ((needed (mapcar #'* motion need)))
+    (unit-length (loop for part in (if (every #'zerop needed) motion needed)
+                       collect (coerce part 'double-float)))))
