@@ -17,10 +17,10 @@
 
 (defun candidate-quality (candidate)
   "Return the quality index of CANDIDATE, a double, or NIL if it is not possible."
-  (and (eq (candidate-outcome candidate) :possible) (%candidate-quality candidate)))
+  (and (possible-p candidate) (%candidate-quality candidate)))
 
 (defun axis-or-nil (candidate limit)
-  (and (eq (candidate-outcome candidate) :possible) (>= limit 0) (axis-name limit)))
+  (and (possible-p candidate) (>= limit 0) (axis-name limit)))
 
 (defun candidate-force-axis (candidate)
   "Return the axis that limits u_w of CANDIDATE, as \"about Y\", or NIL if no force is needed.  In a
@@ -158,7 +158,7 @@ CANDIDATE failed at an earlier step."
 multiple of the forces and torques that the task needs, all together and in any direction, beside
 the weight.  NIL if CANDIDATE is not possible, or the task needs no force.  u_w looks at one axis at
 a time, and promises no such thing.  Source: SURE-RADIUS."
-  (and (eq (candidate-outcome candidate) :possible)
+  (and (possible-p candidate)
        (with-replay (workspace candidate plan)
          (sure-of candidate workspace))))
 

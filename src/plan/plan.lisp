@@ -7,8 +7,7 @@
 
 (defvar *plan* nil "The plan that FORWARD-CHAIN or TRY made last, or NIL.")
 
-(defvar *box* nil)
-(setf (documentation '*box* 'variable) "The box that BOX was set to last, or NIL.")
+(defvar *box* nil "The box that BOX was set to last, or NIL.")
 
 (define-condition no-box-error (supergrip-error) ()
   (:report "there is no box yet: set one with (setq box '((SIZE 12 2 2) (WEIGHT 0.2) ...))")
@@ -183,15 +182,13 @@ was tried in the matchings SET, but for those that use a constrained face, equiv
       (error 'no-grasp-error :name name :knowledge knowledge)))
 
 (define-condition no-grasp-error (supergrip-error)
-  ((name :initarg :name :reader no-grasp-error-name)
-   (knowledge :initarg :knowledge :reader no-grasp-error-knowledge))
+  ((name :initarg :name) (knowledge :initarg :knowledge))
   (:report (lambda (condition stream)
-             (let ((name (no-grasp-error-name condition))
-                   (known (mapcar #'grasp-name
-                                  (knowledge-grasps (no-grasp-error-knowledge condition)))))
-               (format stream "there is no grasp ~a~a; grasps are ~a"
-                       (form-text (if (name-of name) (make-symbol (name-of name)) name))
-                       (suggestion (or (name-of name) "") known) (listed known)))))
+             (with-slots (name knowledge) condition
+               (let ((known (mapcar #'grasp-name (knowledge-grasps knowledge))))
+                 (format stream "there is no grasp ~a~a; grasps are ~a"
+                         (form-text (if (name-of name) (make-symbol (name-of name)) name))
+                         (suggestion (or (name-of name) "") known) (listed known))))))
   (:documentation "A grasp was named that the database lacks."))
 
 (defun new-memory (knowledge)
@@ -288,10 +285,10 @@ Rules that end without KEEP or CANT keep the best."
         (error 'gamma-error :gamma gamma))))
 
 (define-condition gamma-error (supergrip-error)
-  ((gamma :initarg :gamma :reader gamma-error-gamma))
+  ((gamma :initarg :gamma))
   (:report (lambda (condition stream)
              (format stream "gamma is ~a, but must be a number from 0 (forces alone) to 1 ~
-                             (velocities alone)" (form-text (gamma-error-gamma condition)))))
+                             (velocities alone)" (form-text (slot-value condition 'gamma)))))
   (:documentation "The selection parameter is no number from 0 to 1."))
 
 (defun plan-verdict (&optional (plan (last-plan)))
@@ -304,9 +301,6 @@ stands at a break or a step.  The best grasp of PLAN is then the best so far."
 (defun plan-candidates (&optional (plan (last-plan)))
   "Return the candidates of PLAN, a new list, in the order in which they were tried."
   (loop for entry in (plan-entries (need-plan plan)) when (candidate-p entry) collect entry))
-
-(defun possible-p (candidate)
-  (eq (%candidate-outcome candidate) :possible))
 
 (defun plan-possible (&optional (plan (last-plan)))
   "Return the possible grasps of PLAN, candidates, the best first; those of equal quality are in the

@@ -21,13 +21,16 @@ if QUALITY and FORCE-RADIUS are no more than upper bounds."
   (strength nil)                        ; see plan/exact.lisp
   (bound nil :type boolean))
 
+(defun possible-p (candidate)
+  (eq (%candidate-outcome candidate) :possible))
+
 (defun quality-sign (candidate)
   "Return the sign between Q and the quality of CANDIDATE: = or, for a bound, <=."
   (if (%candidate-bound candidate) "<=" "="))
 
 (define-printing (candidate candidate) "~a (~{~a~^ ~}) ~:[~a~;Q~*~a~,3f~]"
   (grasp-name (%candidate-grasp candidate)) (matching-names (%candidate-matching candidate))
-  (eq (%candidate-outcome candidate) :possible) (%candidate-outcome candidate)
+  (possible-p candidate) (%candidate-outcome candidate)
   (quality-sign candidate) (%candidate-quality candidate))
 
 (defstruct (index (:constructor make-index (name same choose)))

@@ -12,7 +12,7 @@
   "Try GRASP in MATCHING, and return the candidate."
   (let ((candidate (make-candidate grasp matching)))
     (run-steps workspace candidate)
-    (when (eq (%candidate-outcome candidate) :possible)
+    (when (possible-p candidate)
       (let ((best (workspace-best workspace)))
         (when (or (null best)
                   (> (%candidate-quality candidate) (+ (%candidate-quality best) +tie+)))
