@@ -147,9 +147,12 @@ be inside another operation."
 
 (defun write-number-into (node code to)
   "Write NODE, so that the register TO will hold its number."
-  (let ((from (write-number node code to)))
-    (unless (= from to)
-      (add-step code (lambda (next) (move-step next to from))))))
+  (write-move code (write-number node code to) to))
+
+(defun write-move (code from to)
+  "Write that the register TO gets what FROM holds, unless they are one."
+  (unless (= from to)
+    (add-step code (lambda (next) (move-step next to from)))))
 
 (defun move-step (next to from)
   (declare (function next) (type register to from))
@@ -198,9 +201,7 @@ be inside another operation."
 (defun write-six-into (node code to)
   (loop for from in (write-six node code to)
         for register in to
-        unless (= from register)
-          do (let ((from from) (register register))
-               (add-step code (lambda (next) (move-step next register from))))))
+        do (write-move code from register)))
 
 ;;; Tests
 

@@ -164,13 +164,15 @@ itself."
 
 (defparameter +most-contacts+ 50 "The most contacts that a grasp may have.")
 
+(defun middle-contacts (grasp-faces)
+  "Return the forms of one contact in the middle of each of GRASP-FACES."
+  (loop for grasp-face in grasp-faces collect (list (svref +grasp-faces+ grasp-face) 0 0)))
+
 (defun parse-contacts (entry used palm scope)
   "Return the contacts, by default one in the middle of each used face but the palm's."
   (let ((contacts (if entry
                       (and (listp (second entry)) (second entry))
-                      (loop for grasp-face in used
-                            unless (eql grasp-face palm)
-                            collect (list (svref +grasp-faces+ grasp-face) 0 0)))))
+                      (middle-contacts (remove palm used)))))
     (cond ((null contacts) (complain *form* "CONTACTS lists no contact"))
           ((nthcdr +most-contacts+ contacts)
            (complain *form* "CONTACTS lists more than ~d contacts" +most-contacts+))
@@ -264,8 +266,7 @@ stands for one that is absent beside REACH.  PARSE is a function of any other va
 form, and sentences."
   (append (and offset-form (list (list "OFFSET" offset-form)))
           (and (not (funcall given "CONTACTS"))
-               (list (list "CONTACTS" (loop for (grasp-face) in contacts
-                                            collect (list (svref +grasp-faces+ grasp-face) 0 0)))))
+               (list (list "CONTACTS" (middle-contacts (mapcar #'first contacts)))))
           (loop for (key node) in (list (list "WRENCH" wrench) (list "TWIST" twist))
                 when (eq (node-kind node) :computed)
                   collect (second (part-word key (node-form node))))))
