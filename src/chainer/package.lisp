@@ -35,7 +35,7 @@ one generic function.")
    #:run-rules #:stop #:stop-verdict #:stop-rule #:stop-words #:make-stop
    #:rule-bindings #:prefix-bindings #:run-observed #:run-in-order #:rule-met-p
    #:met-clauses #:binding-text #:check-rules #:tested-sentences
-   #:log-event #:event-rule #:event-action #:event-binding #:event-fact
+   #:log-event #:event-rule #:event-binding #:event-fact
    ;; names of 0.1.0
    #:+surfaces+ #:surface #:surface-index #:surface-name #:surface-axis #:surface-sign
    #:pack #:pack-mask #:pack-count #:pack-elements #:pack-names))

@@ -27,10 +27,10 @@ wrong in them.")
    #:knowledge-error-consequence #:knowledge-warning #:knowledge-warning-problems #:retry
    ;; names and forms
    #:with-row #:name= #:name-in #:namep #:part-p #:canonical #:canonical-name
-   #:form-text #:as-double #:cut-text #:visible-text #:invisible-p #:code-text
+   #:form-text #:as-double #:cut-text #:visible-text #:code-text
    ;; reader
-   #:source #:string-source #:source-line #:source-column #:source-name
-   #:read-datum #:skip-blanks #:end-of-data #:read-all
+   #:source #:string-source #:source-line #:source-column
+   #:read-datum #:end-of-data #:read-all
    #:peek #:source-buffer #:source-position #:source-end #:utf-16-p
    #:skip-to-record #:make-source #:part-place #:+mark+
    #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*
