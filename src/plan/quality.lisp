@@ -55,6 +55,20 @@ it: those along the axes grow.  Source: reconstructed, see docs/physics.md."
   (replace out needs)
   (add-turned offset 3 needs out 0))
 
+(defun put-borne (box x y z out)
+  "Put into OUT what contacts exert about X Y Z, from the centre of BOX, as they bear its weight:
+the opposite of gravity's wrench there, with signs."
+  (declare (type box box) (double-float x y z) (type six out))
+  (let* ((weight (%box-weight box)) (down (%box-down box)) (centre (%box-mass-centre box))
+         (gx (aref down 0)) (gy (aref down 1)) (gz (aref down 2))
+         (x (- x (aref centre 0))) (y (- y (aref centre 1))) (z (- z (aref centre 2))))
+    (setf (aref out 0) (- (* weight gx))
+          (aref out 1) (- (* weight gy))
+          (aref out 2) (- (* weight gz))
+          (aref out 3) (* weight (- (* y gz) (* z gy)))
+          (aref out 4) (* weight (- (* z gx) (* x gz)))
+          (aref out 5) (* weight (- (* x gy) (* y gx))))))
+
 (defun put-load (box x y z out)
   "Put into OUT the load of gravity at a grasp centre X Y Z from the centre of BOX: the weight along
 the axes, and the torques that it causes there, all without signs."
@@ -67,34 +81,14 @@ the axes, and the torques that it causes there, all without signs."
               (aref out 3) (* weight (abs y))
               (aref out 4) (* weight (abs x))
               (aref out 5) 0d0)
-        (put-turned-load weight (%box-down box) (%box-mass-centre box) x y z out))))
+        (put-turned-load box x y z out))))
 
-(defun put-turned-load (weight down centre x y z out)
-  "Put into OUT the load of WEIGHT in the direction DOWN, a unit vector, at X Y Z, if it acts at
-CENTRE."
-  (declare (double-float weight x y z) (type three down centre) (type six out))
-  (let ((gx (aref down 0)) (gy (aref down 1)) (gz (aref down 2))
-        (x (- x (aref centre 0))) (y (- y (aref centre 1))) (z (- z (aref centre 2))))
-    (setf (aref out 0) (* weight (abs gx))
-          (aref out 1) (* weight (abs gy))
-          (aref out 2) (* weight (abs gz))
-          (aref out 3) (* weight (abs (- (* y gz) (* z gy))))
-          (aref out 4) (* weight (abs (- (* z gx) (* x gz))))
-          (aref out 5) (* weight (abs (- (* x gy) (* y gx)))))))
-
-(defun put-borne (box x y z out)
-  "Put into OUT what contacts exert about X Y Z, from the centre of BOX, as they bear its weight:
-the opposite of gravity's wrench there, with signs."
+(defun put-turned-load (box x y z out)
+  "As PUT-LOAD, wherever gravity points and the centre of mass is."
   (declare (type box box) (double-float x y z) (type six out))
-  (let* ((weight (%box-weight box)) (down (%box-down box)) (centre (%box-mass-centre box))
-         (gx (* weight (aref down 0))) (gy (* weight (aref down 1))) (gz (* weight (aref down 2)))
-         (x (- x (aref centre 0))) (y (- y (aref centre 1))) (z (- z (aref centre 2))))
-    (setf (aref out 0) (- gx)
-          (aref out 1) (- gy)
-          (aref out 2) (- gz)
-          (aref out 3) (- (* y gz) (* z gy))
-          (aref out 4) (- (* z gx) (* x gz))
-          (aref out 5) (- (* x gy) (* y gx)))))
+  (put-borne box x y z out)
+  (dotimes (axis 6)
+    (setf (aref out axis) (abs (aref out axis)))))
 
 (defun quality-index (gamma velocity-radius velocity-limit force-radius force-limit)
   "Return Q = GAMMA u_t + (1 - GAMMA) u_w; where a task needs only forces or only velocities (its
