@@ -103,9 +103,8 @@ REGISTERS.  NIL if the conditions are false, or something has no value."
 (defstruct stray
   "A contact that was on no box so far: its NUMBER, from 0, and its FACE; PLACES, axes and
 registers in turn.  FAR is the least distance that it was out where the hand is shorter, EDGE the
-least by which it was beyond an edge elsewhere, FAR-AXIS and EDGE-AXIS along which axes; NIL where
-that never was."
-  (number 0) (face 0) (places '()) (far nil) (far-axis 0) (edge nil) (edge-axis 0))
+least by which it was beyond an edge elsewhere, each with the axis; NIL where that never was."
+  (number 0) (face 0) (places '()) (far nil) (edge nil))
 
 (defun strays-of (grasp)
   "Return a stray for each contact of GRASP."
@@ -115,33 +114,28 @@ that never was."
                   (make-stray :number number :face face :places (list one p two q)))))
 
 (defun worst-along (stray function)
-  "Return the greatest that FUNCTION gives of the axes and the registers of STRAY, and its axis."
-  (let ((worst nil) (worst-axis nil))
-    (loop for (axis register) on (stray-places stray) by #'cddr
-          for value = (funcall function axis register)
-          when (or (null worst) (> value worst))
-            do (setf worst value worst-axis axis))
-    (values worst worst-axis)))
+  "Return the greatest that FUNCTION gives of the axes and the registers of STRAY, with its axis."
+  (destructuring-bind (axis1 register1 axis2 register2) (stray-places stray)
+    (let ((one (funcall function axis1 register1)) (two (funcall function axis2 register2)))
+      (if (> two one) (cons two axis2) (cons one axis1)))))
 
 (defun note-stray (stray registers centre most)
   "Return true if STRAY is on its face of the box in REGISTERS, at CENTRE, and no farther out than
 MOST; if it is not, note by how much."
   (declare (type registers registers) (type three centre))
-  (multiple-value-bind (out axis)
-      (worst-along stray (lambda (axis register)
-                           (declare (ignore axis))
-                           (abs (aref registers register))))
-    (multiple-value-bind (beyond edge-axis)
-        (worst-along stray (lambda (axis register)
-                             (- (abs (+ (aref centre axis) (aref registers register)))
-                                (/ (aref registers (+ +distances+ axis)) 2))))
-      (cond ((> out most)
-             (when (or (null (stray-far stray)) (< out (stray-far stray)))
-               (setf (stray-far stray) out (stray-far-axis stray) axis))
+  (let ((out (worst-along stray (lambda (axis register)
+                                  (declare (ignore axis))
+                                  (abs (aref registers register)))))
+        (beyond (worst-along stray (lambda (axis register)
+                                     (- (abs (+ (aref centre axis) (aref registers register)))
+                                        (/ (aref registers (+ +distances+ axis)) 2))))))
+    (flet ((lesser (new old)
+             (if (or (null old) (< (car new) (car old))) new old)))
+      (cond ((> (car out) most)
+             (setf (stray-far stray) (lesser out (stray-far stray)))
              nil)
-            ((> beyond (* 1d-9 (+ 1 out)))
-             (when (or (null (stray-edge stray)) (< beyond (stray-edge stray)))
-               (setf (stray-edge stray) beyond (stray-edge-axis stray) edge-axis))
+            ((> (car beyond) (* 1d-9 (+ 1 (car out))))
+             (setf (stray-edge stray) (lesser beyond (stray-edge stray)))
              nil)
             (t t)))))
 
@@ -172,13 +166,14 @@ size of the greatest dimension of the hand, or NIL."
                                    ~a cm beyond the edge along ~a; places are lengths from the ~
                                    grasp centre, in cm")
                   (and form (form-text form)) (1+ (stray-number stray)) count face
-                  (number-text (stray-edge stray)) (svref +axis-names+ (stray-edge-axis stray)))
+                  (number-text (car (stray-edge stray)))
+                  (svref +axis-names+ (cdr (stray-edge stray))))
         (complain form '(:warning "~:[contact ~d~;~:*~a~*~]: this is ~a cm from the grasp centre ~
                                    along ~a, and the hand's greatest dimension is ~a, ~a; places ~
                                    are lengths in cm; where a finger is that far out, let the ~
                                    gripper name how far")
                   (and form (form-text form)) (1+ (stray-number stray))
-                  (number-text (stray-far stray)) (svref +axis-names+ (stray-far-axis stray))
+                  (number-text (car (stray-far stray))) (svref +axis-names+ (cdr (stray-far stray)))
                   (car hand) (number-text (cdr hand))))))
 
 (defun check-places (grasp graspbase)
