@@ -51,15 +51,9 @@ from them, or a whole :SEARCH."
 
 (define-step (exact-quality :exact) :open (candidate workspace)
   (without-float-traps
-    (shift-velocity (%box-velocity (workspace-box workspace)) (workspace-offset workspace)
-                    (workspace-velocity-needs workspace))
-    (multiple-value-bind (radius limit)
-        (embedded-radius (workspace-velocity-needs workspace) (workspace-twist workspace))
-      (setf (%candidate-velocity-radius candidate) radius
-            (%candidate-velocity-limit candidate) limit))
+    (rate-velocity candidate workspace)
     (look-along-axes (%candidate-strength candidate) (workspace-box workspace))
-    (rate-exactly candidate workspace)
-    (finite-p (%candidate-quality candidate))))
+    (rate-exactly candidate workspace)))
 
 ;;; Strength
 
@@ -117,16 +111,11 @@ certified one or, if there is none, the sure radius."
              (sure-of candidate workspace)))))
 
 (defun rate-exactly (candidate workspace)
-  "Put into CANDIDATE the radius and the quality that its strength gives."
+  "Put into CANDIDATE the radius and the quality that its strength gives.  True if it is finite."
   (let ((strength (%candidate-strength candidate)))
     (setf (%candidate-bound candidate) (not (eq (strength-stage strength) :search)))
-    (let ((radius (counted-radius candidate workspace))
-          (limit (worst-axis (strength-worst strength) (%box-force (workspace-box workspace)))))
-      (setf (%candidate-force-radius candidate) radius
-            (%candidate-force-limit candidate) limit
-            (%candidate-quality candidate)
-            (quality-index (workspace-gamma workspace) (%candidate-velocity-radius candidate)
-                           (%candidate-velocity-limit candidate) radius limit)))))
+    (rate candidate workspace (counted-radius candidate workspace)
+          (worst-axis (strength-worst strength) (%box-force (workspace-box workspace))))))
 
 ;;; The best
 

@@ -351,21 +351,29 @@ less."
         (put-spare-both-ways workspace))
     spare))
 
+(declaim (inline rate-velocity rate))
+(defun rate-velocity (candidate workspace)
+  "Put u_t into CANDIDATE, and the axis that limits it."
+  (declare (type candidate candidate) (type workspace workspace))
+  (shift-velocity (%box-velocity (workspace-box workspace)) (workspace-offset workspace)
+                  (workspace-velocity-needs workspace))
+  (setf (values (%candidate-velocity-radius candidate) (%candidate-velocity-limit candidate))
+        (embedded-radius (workspace-velocity-needs workspace) (workspace-twist workspace))))
+
+(defun rate (candidate workspace radius limit)
+  "Put u_w into CANDIDATE, which is RADIUS, the axis LIMIT, and the quality.  True if that is finite."
+  (declare (type candidate candidate) (type workspace workspace) (double-float radius))
+  (setf (%candidate-force-radius candidate) radius
+        (%candidate-force-limit candidate) limit
+        (%candidate-quality candidate)
+        (quality-index (workspace-gamma workspace) (%candidate-velocity-radius candidate)
+                       (%candidate-velocity-limit candidate) radius limit))
+  (finite-p (%candidate-quality candidate)))
+
 (define-step (quality :paper) :open (candidate workspace)
-  (let ((box (workspace-box workspace))
-        (offset (workspace-offset workspace))
-        (spare (put-spare workspace)))
-    (shift-force (%box-force box) offset (workspace-force-needs workspace))
-    (shift-velocity (%box-velocity box) offset (workspace-velocity-needs workspace))
-    (multiple-value-bind (force-radius force-limit)
-        (embedded-radius (workspace-force-needs workspace) spare)
-      (multiple-value-bind (velocity-radius velocity-limit)
-          (embedded-radius (workspace-velocity-needs workspace) (workspace-twist workspace))
-        (setf (%candidate-force-radius candidate) force-radius
-              (%candidate-force-limit candidate) force-limit
-              (%candidate-velocity-radius candidate) velocity-radius
-              (%candidate-velocity-limit candidate) velocity-limit
-              (%candidate-quality candidate)
-              (quality-index (workspace-gamma workspace) velocity-radius velocity-limit
-                             force-radius force-limit))
-        (finite-p (%candidate-quality candidate))))))
+  (shift-force (%box-force (workspace-box workspace)) (workspace-offset workspace)
+               (workspace-force-needs workspace))
+  (rate-velocity candidate workspace)
+  (multiple-value-bind (radius limit)
+      (embedded-radius (workspace-force-needs workspace) (put-spare workspace))
+    (rate candidate workspace radius limit)))
