@@ -9,7 +9,8 @@ one generic function.")
   (:export
    ;; faces
    #:+faces+ #:face #:face-index #:face-name #:opposite #:face-axis #:face-sign
-   #:face-list #:make-face-list #:face-list-mask #:face-list-ref #:face-list-count
+   #:face-list #:make-face-list #:face-list-mask #:face-list-ref #:face-list-with
+   #:face-list-count
    #:face-list-elements #:face-list-names
    ;; predicates and working memory
    #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text

@@ -319,17 +319,18 @@ rest of its clause, give.  NIL after a complaint."))
   "Return the faces that VALUES of the key ROW name, as a face list; NIL after complaints.  TWICE says
 what is wrong with one that is there twice.  SPOT are the numbers of the place of VALUES, for
 VALUE-SPOT."
-  (let ((faces '()) (good t))
+  (let ((faces 0) (good t))
+    (declare (type face-list faces))
     (loop for value in values
           for number from 0
           for face = (face-named value)
-          do (if (and face (not (member face faces)))
-                 (push face faces)
+          do (if (and face (not (logbitp face faces)))
+                 (setf faces (face-list-with faces (face-list-count faces) face))
                  (let ((place (apply #'value-spot row (append spot (list number)))))
                    (setf good (if face
                                   (complain place "~a ~a" (value-text *notation* value) twice)
                                   (refuse-face value place))))))
-    (and good (make-face-list (reverse faces)))))
+    (and good faces)))
 
 (defmethod parse-values ((type (eql :faces)) row values)
   (let ((faces (parse-faces values row "is constrained twice")))
