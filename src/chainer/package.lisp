@@ -10,8 +10,7 @@ one generic function.")
    ;; faces
    #:+faces+ #:face #:face-index #:face-name #:opposite #:face-axis #:face-sign
    #:face-list #:make-face-list #:face-list-mask #:face-list-ref #:face-list-with
-   #:face-list-count
-   #:face-list-elements #:face-list-names
+   #:face-list-count #:face-list-elements #:face-list-names
    ;; predicates and working memory
    #:predicate #:predicate-words #:predicate-arity #:predicate-index #:predicate-text
    #:predicate-given #:declared-p #:input-declaration-form #:input-declaration-comment #:input-line

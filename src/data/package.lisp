@@ -35,6 +35,6 @@ wrong in them.")
    #:skip-to-record #:make-source #:part-place #:+mark+
    #:*depth-limit* #:*record-limit* #:*number-limit* #:*name-limit*
    ;; the tools of readers
-   #:next #:refuse-syntax #:fail #:fail-at #:deeper #:start-record #:end-record #:note-place #:skip-mark
-   #:push-token #:take-while #:token-number #:digits-end #:character-description #:source-token
-   #:source-depth #:source-inside))
+   #:refuse-syntax #:next #:fail #:fail-at #:deeper #:start-record #:end-record #:note-place
+   #:skip-mark #:push-token #:take-while #:token-number #:digits-end #:character-description
+   #:source-token #:source-depth #:source-inside))

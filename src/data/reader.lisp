@@ -51,10 +51,10 @@ may have.  TRACK tells where each part of the record begins (see NOTE-PLACE)."
   (1+ (- (+ (source-offset source) (source-position source)) (source-line-offset source))))
 
 (defun refuse-syntax (place control &rest arguments)
-  "Signal a SYNTAX-ERROR that says what CONTROL and ARGUMENTS say.  PLACE gives the keys of its problem
-that say where."
-  (error 'syntax-error
-         :problems (list (apply #'make-problem :text (apply #'plain-text control arguments) place))))
+  "Signal a SYNTAX-ERROR that says what CONTROL and ARGUMENTS say.  PLACE says where: some keys and
+values of its problem."
+  (let ((text (apply #'plain-text control arguments)))
+    (error 'syntax-error :problems (list (apply #'make-problem :text text place)))))
 
 (defun fail-at (source line column control &rest arguments)
   "Signal a SYNTAX-ERROR at LINE and COLUMN of SOURCE that says what CONTROL and ARGUMENTS say."

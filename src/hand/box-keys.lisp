@@ -316,8 +316,8 @@ rest of its clause, give.  NIL after a complaint."))
             (value-text *notation* value) (consp value)))
 
 (defun parse-faces (values row twice &rest spot)
-  "Return the faces that VALUES of the key ROW name, as a face list; NIL after complaints.  TWICE says
-what is wrong with one that is there twice.  SPOT are the numbers of the place of VALUES, for
+  "Return the faces that VALUES of the key ROW name, as a face list; NIL after complaints.  TWICE
+says what is wrong with one that is there twice.  SPOT are the numbers of the place of VALUES, for
 VALUE-SPOT."
   (let ((faces 0) (good t))
     (declare (type face-list faces))

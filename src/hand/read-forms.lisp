@@ -258,8 +258,8 @@ are constants.  NIL if one of them is NIL."
 ;;; Sums that were products once: the scan of the paper reads (* 2 u) as (+ 2 u)
 
 (defvar *sums* nil
-  "NIL, or true in a form where each sum that was probably meant to be a product is warned of: in one
-of six entries its number, else T.")
+  "NIL, or true in a form where each sum that was probably meant to be a product is warned of: in
+one of six entries its number, else T.")
 
 (defun friction-p (node)
   (and (eq (node-kind node) :input) (member (first (node-args node)) (list +u+ +v+))))

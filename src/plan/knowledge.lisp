@@ -242,11 +242,13 @@ its being read is among its problems."
   "Return a source that reads TEXT, that of the file NAME.  Signals a SYNTAX-ERROR if it can't be
 read."
   (cond ((utf-16-p text 0 (length text))
-         (refuse-syntax (list :file name) "this file is UTF-16, but must be UTF-8; iconv -f UTF-16 ~
-                                           -t UTF-8 converts it"))
+         (refuse-syntax (list :file name)
+                        "this file is UTF-16, but must be UTF-8; iconv -f UTF-16 -t UTF-8 converts ~
+                         it"))
         ((> (length text) (room-for (length text)))
-         (refuse-syntax (list :file name) "this file is longer than the ~d characters that the heap ~
-                                           has room for; --dynamic-space-size makes the heap larger"
+         (refuse-syntax (list :file name)
+                        "this file is longer than the ~d characters that the heap has room for; ~
+                         --dynamic-space-size makes the heap larger"
                         (room-for (length text))))
         (t (string-source text :name name))))
 

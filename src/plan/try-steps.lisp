@@ -361,7 +361,7 @@ less."
         (embedded-radius (workspace-velocity-needs workspace) (workspace-twist workspace))))
 
 (defun rate (candidate workspace radius limit)
-  "Put u_w into CANDIDATE, which is RADIUS, the axis LIMIT, and the quality.  True if that is finite."
+  "Put RADIUS, u_w, the axis LIMIT and the quality into CANDIDATE.  True if the last is finite."
   (declare (type candidate candidate) (type workspace workspace) (double-float radius))
   (setf (%candidate-force-radius candidate) radius
         (%candidate-force-limit candidate) limit
