@@ -41,34 +41,30 @@ stand for in TEST and PHRASE; those at the end may be left out:
 THRESHOLD stands for the gripper's DIMENSION, a string, if there is one.  TEST is a form, true where
 the assertion holds; PHRASE a form that returns why, a string.  Knowledge that is loaded from then
 on has the assertion."
-  (let* ((places (ecase kind
-                   (:pair (list (make-face-list '(0 1)) (make-face-list '(2 3))
-                                (make-face-list '(4 5))))
-                   (:face (loop for face below 6 collect (make-face-list (list face))))
-                   (:box '(0))))
-         (values (ecase kind
-                   (:pair '((aref (%box-size box) (face-axis (face-list-ref face-list 0))) box))
-                   (:face '((face-list-ref face-list 0) box))
-                   (:box '(box))))
-         (bindings (loop for variable in variables for value in values
-                         collect (list variable value))))
-    `(add-input
-      (make-input-row
-       ,name ,(ecase kind (:pair 2) (:face 1) (:box 0)) ,dimension
-       (lambda (memory predicate box ,threshold)
-         (declare (type memory memory) (type predicate predicate) (type box box)
-                  (double-float ,threshold) (ignorable box ,threshold))
-         (dolist (face-list ',places)
-           (declare (type face-list face-list) (ignorable face-list))
+  (destructuring-bind (arity faces . values)
+      (ecase kind
+        (:pair '(2 ((0 1) (2 3) (4 5))
+                 (aref (%box-size box) (face-axis (face-list-ref face-list 0))) box))
+        (:face '(1 ((0) (1) (2) (3) (4) (5)) (face-list-ref face-list 0) box))
+        (:box '(0 (()) box)))
+    (let ((bindings (mapcar #'list variables values)))
+      `(add-input
+        (make-input-row
+         ,name ,arity ,dimension
+         (lambda (memory predicate box ,threshold)
+           (declare (type memory memory) (type predicate predicate) (type box box)
+                    (double-float ,threshold) (ignorable box ,threshold))
+           (dolist (face-list ',(mapcar #'make-face-list faces))
+             (declare (type face-list face-list) (ignorable face-list))
+             (let ,bindings
+               (declare (ignorable ,@variables))
+               (when ,test (put-fact memory predicate face-list)))))
+         (lambda (face-list box ,threshold)
+           (declare (type face-list face-list) (ignorable face-list box ,threshold))
            (let ,bindings
              (declare (ignorable ,@variables))
-             (when ,test (put-fact memory predicate face-list)))))
-       (lambda (face-list box ,threshold)
-         (declare (type face-list face-list) (ignorable face-list box ,threshold))
-         (let ,bindings
-           (declare (ignorable ,@variables))
-           ,phrase))
-       (numbers-in ',test)))))
+             ,phrase))
+         (numbers-in ',test))))))
 
 (defun apart-text (distance relation dimension threshold)
   "Return that two faces are DISTANCE apart, which stands in RELATION to the DIMENSION, THRESHOLD."
