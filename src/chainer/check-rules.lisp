@@ -117,11 +117,12 @@ has not passed yet; and the NAMES of all."
                       (< (use-rule (first derivers)) (use-rule test)))
                   (use-name later))))))
 
-(defun check-contradiction (tests)
-  "Warn if TESTS, those of one rule, hold a sentence and its negation."
+(defun check-contradictions (tests)
+  "Warn if TESTS hold a sentence and its negation in one rule."
   (let ((firsts (make-hash-table :test #'equal)))
     (flet ((key (test negated)
-             (format nil "~:[~;NOT ~]~a (~a)" negated (use-words test) (use-surfaces test))))
+             (format nil "~d ~:[~;NOT ~]~a (~a)" (use-rule test) negated (use-words test)
+                     (use-surfaces test))))
       (dolist (test tests)
         (let ((contrary (gethash (key test (not (use-negated test))) firsts))
               (own (key test (use-negated test))))
@@ -132,13 +133,6 @@ has not passed yet; and the NAMES of all."
                         (use-place contrary))))
           (unless (gethash own firsts)
             (setf (gethash own firsts) test)))))))
-
-(defun check-contradictions (tests)
-  "Warn if TESTS hold a sentence and its negation in one rule."
-  (loop while tests
-        do (let ((next (member (use-rule (first tests)) tests :key #'use-rule :test-not #'=)))
-             (check-contradiction (ldiff tests next))
-             (setf tests next))))
 
 (defun check-rules (forms inputs)
   "Warn of what can't be meant in FORMS, the rules of a file in their order (see WITH-PROBLEMS).
