@@ -13,7 +13,6 @@ prevent it."
   (gripper-file nil :read-only t)
   (rulebase nil :type rulebase :read-only t)
   (graspbase nil :type graspbase :read-only t)
-  (predicates #() :type simple-vector :read-only t)
   (inputs '() :type list :read-only t)
   (uses '() :type list :read-only t)
   (complaints '() :type list :read-only t)
@@ -120,7 +119,6 @@ and the list of all problems.  What is wrong is left out."
                 (%make-knowledge :rulebase rulebase :graspbase graspbase :uses uses
                                  :rule-file rule-file :grasp-file grasp-file
                                  :gripper-file gripper-file
-                                 :predicates (rulebase-predicates rulebase)
                                  :inputs (prepare-inputs rulebase graspbase)
                                  :complaints (warnings-in problems)))))))
     ;; What follows from a file that could not be read at all is no news.

@@ -99,13 +99,11 @@ these."
   "Return the name of the rule in force whose form, or the grasp whose property list, is DEFINITION;
 or NIL."
   (flet ((text (form) (form-text form *record-limit*)))
-    (let* ((text (text definition))
-           (rule (find text (knowledge-rules *knowledge*)
-                       :key (lambda (rule) (text (rule-form rule))) :test #'string=))
-           (grasp (find text (knowledge-grasps *knowledge*)
-                        :key (lambda (grasp) (text (grasp-properties grasp))) :test #'string=)))
-      (cond (rule (rule-name rule))
-            (grasp (grasp-name grasp))))))
+    (let ((text (text definition)))
+      (or (loop for rule in (knowledge-rules *knowledge*)
+                when (string= text (text (rule-form rule))) return (rule-name rule))
+          (loop for grasp in (knowledge-grasps *knowledge*)
+                when (string= text (text (grasp-properties grasp))) return (grasp-name grasp))))))
 
 (defun listed (names &optional (most 40) (between ", "))
   "Return NAMES, a list of strings, with BETWEEN between them; of many the first MOST, and how many
@@ -326,4 +324,4 @@ them.  None if the box can't be grasped."
   "Return the assertions at the end of PLAN: a list a predicate, its words followed by its lists of
 surfaces, all strings."
   (supergrip-chainer:assertions (plan-memory (need-plan plan))
-                                (knowledge-predicates (plan-knowledge plan))))
+                                (rulebase-predicates (knowledge-rulebase (plan-knowledge plan)))))

@@ -36,7 +36,7 @@ one to assert all that in."
   "Return the predicates that KNOWLEDGE declares by INPUT and that a rule of it tests."
   (remove-if-not (lambda (predicate)
                    (and (declared-p predicate) (tested-p predicate knowledge)))
-                 (coerce (knowledge-predicates knowledge) 'list)))
+                 (coerce (rulebase-predicates (knowledge-rulebase knowledge)) 'list)))
 
 (defun look (view box)
   "Return the memory of VIEW, which holds what its rules see of BOX."
