@@ -35,7 +35,7 @@ DEFINE-ACTION adds a method.")
   (:method (verb action client)
     (declare (ignore client))
     (complain (action-form action) "~a is not an action; actions are ~{~a~^, ~}~a" verb
-              (action-verbs) (suggestion (string verb) (action-verbs)))))
+              (action-verbs) (suggestion verb (action-verbs)))))
 
 ;;; What else is known of an action.  By default, as little as can be; a verb adds methods.
 

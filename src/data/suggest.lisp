@@ -48,9 +48,11 @@ more than MOST."
            (end-b (+ end-a (- (length b) (length a)))))
       (edit-distance (subseq a start end-a) (subseq b start end-b) most))))
 
-(defun suggestion (text known)
-  "Return a phrase that suggests the string of KNOWN that TEXT was probably meant to be, or \"\"."
-  (let* ((text (coerce (subseq text 0 (min 60 (length text))) 'simple-string))
+(defun suggestion (name known)
+  "Return a phrase that suggests the string of KNOWN that NAME, a name or a string, was probably
+meant to be, or \"\"; \"\" for what is neither."
+  (let* ((text (if (and name (typep name '(or symbol string))) (string name) ""))
+         (text (coerce (subseq text 0 (min 60 (length text))) 'simple-string))
          (best nil) (least 4))
     (when (and (> (length text) 2)      ; any two short names are close
                (or (null *looks-left*) (plusp *looks-left*)))

@@ -293,8 +293,7 @@ rest of its clause, give.  NIL after a complaint."))
           (t
            (complain (value-spot row index) "~a is not a unit of ~(~a~)s~a: ~a takes ~a"
                      (value-text *notation* name) measure
-                     (suggestion (if (or (namep name) (stringp name)) (string-upcase name) "")
-                                 (unit-names measure))
+                     (suggestion (if (stringp name) (string-upcase name) name) (unit-names measure))
                      (key-name *notation* row) (key-takes row))))))
 
 (defmethod parse-values ((type (eql :units)) row values)

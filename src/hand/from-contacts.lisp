@@ -86,7 +86,7 @@ lengths of the gripper in SCOPE.  Return true if it is good."
 (defun complain-of-word (key value)
   "Complain that VALUE, a name or the list of one, is no value of KEY."
   (complain value "~a is not a list of six entries~a~a" (form-text value)
-            (suggestion (symbol-name (lone-word value)) (part-words key)) (words-hint key)))
+            (suggestion (lone-word value) (part-words key)) (words-hint key)))
 
 ;;; Nodes
 
@@ -232,8 +232,7 @@ the distance of the bases, and the places of the fingers, three each."
       (complain value "~a: REACH gives axes and lengths in turn, such as (N 4.85 A 4.85) or (A ~
                        ~a)~a"
                 (form-text value) +reach-word+
-                (let ((word (lone-word value)))
-                  (if word (suggestion (symbol-name word) (list +reach-word+)) "")))
+                (suggestion (lone-word value) (list +reach-word+)))
       (let ((entries (loop for (name reach) on value by #'cddr
                            collect (cons (and (namep name)
                                               (position name +axis-names+ :test #'name=))
@@ -284,7 +283,7 @@ than the distance between the bases.  Source: the paper, OFFSET of PINCH-2-PARAL
           ((and (namep reach) (not (name-in reach names)))
            (complain reach "~a is not a length~a; a reach is ~a, a number, or a form of the ~
                             gripper's dimensions"
-                     reach (suggestion (symbol-name reach) (cons +reach-word+ names)) +reach-word+))
+                     reach (suggestion reach (cons +reach-word+ names)) +reach-word+))
           ((within-form-p +reach-word+ reach)
            (complain reach "~a: ~a stands alone, in place of a length" (form-text reach)
                      +reach-word+))

@@ -34,7 +34,7 @@ is, a list of numbers, each that of an element."
           ((null row)
            (complain (clause-spot) "unknown key ~a~a; keys are ~{~a~^, ~}"
                      (value-text *notation* name)
-                     (suggestion (string name)
+                     (suggestion name
                                  (mapcar (if (stringp name)
                                              #'box-key-json
                                              (lambda (row) (symbol-name (box-key-key row))))

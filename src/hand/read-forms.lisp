@@ -199,7 +199,7 @@ complaint."
                  (cdr entry))
           (t (complain name "unknown name ~a~a; known are U, V, the gripper's dimensions~@[ ~
                              (~a)~], a helper's parameters and what LET* binds" name
-                       (suggestion (symbol-name name) (mapcar #'car (scope-variables scope)))
+                       (suggestion name (mapcar #'car (scope-variables scope)))
                        (scope-gripper-place scope))))))
 
 (defun parse-arithmetic (form scope wanted)

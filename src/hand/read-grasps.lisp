@@ -98,7 +98,8 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
     (loop for (key parts place) in (split-entries list)
           do (cond ((not (name-in key +grasp-keys+))
                     (complain place "unknown key ~a~a; keys are ~{~a~^, ~}" (form-text key)
-                              (key-suggestion key) +grasp-keys+))
+                              (suggestion (if (consp key) (first key) key) +grasp-keys+)
+                              +grasp-keys+))
                    ((assoc key entries :test #'name=) (complain place "~a is given twice" key))
                    (t (unless parts
                         (complain place "~a has no value; a grasp is a list of keys and values in ~
@@ -121,11 +122,6 @@ that it begins with, complaining of unknown, repeated, empty and missing ones."
           ((given-p "OFFSET")
            (complain (third (given-p "REACH"))
                      "REACH stands in place of OFFSET; give one of them")))))
-
-(defun key-suggestion (key)
-  "Return the phrase that suggests what KEY, which is none, was probably meant to be."
-  (let ((name (if (consp key) (first key) key)))
-    (if (namep name) (suggestion (symbol-name name) +grasp-keys+) "")))
 
 (defun parse-used (value)
   (let ((grasp-faces (and (consp value) (mapcar #'grasp-face-index value))))
@@ -220,7 +216,7 @@ itself."
   "Return the draft of the grasp NAME, whose description is PLIST, or NIL after a complaint."
   (if (notany #'begins-entry-p plist)
       (complain form "~a is not a grasp~a: its list has none of the keys ~{~a~^, ~}" name
-                (suggestion (symbol-name name) '("GRIPPER")) +grasp-keys+)
+                (suggestion name '("GRIPPER")) +grasp-keys+)
       (parse-grasp-parts name plist form scope)))
 
 (defmacro with-entry ((key entry) &body body)

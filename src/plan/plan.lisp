@@ -186,7 +186,7 @@ was tried in the matchings SET, but for those that use a constrained face, equiv
                (let ((known (mapcar #'grasp-name (knowledge-grasps knowledge))))
                  (format stream "there is no grasp ~a~a; grasps are ~a"
                          (form-text (if (name-of name) (make-symbol (name-of name)) name))
-                         (suggestion (or (name-of name) "") known) (listed known))))))
+                         (suggestion (name-of name) known) (listed known))))))
   (:documentation "A grasp was named that the database lacks."))
 
 (defun new-memory (knowledge)

@@ -83,8 +83,7 @@ return true as the second value."
           ;; A grasp with errors was already reported.
           ((name-in name (graspbase-broken graspbase)) nil)
           (t (complain (action-form action) "TRY names ~a, which is not in the database~a" name
-                       (suggestion (symbol-name name)
-                                   (mapcar #'grasp-name (graspbase-grasps graspbase))))))))
+                       (suggestion name (mapcar #'grasp-name (graspbase-grasps graspbase))))))))
 
 (define-action :keep (action graspbase)
   (if (and (= (length (action-operands action)) 1) (name= (first (action-operands action)) "BEST"))

@@ -294,7 +294,7 @@ to two keys."
 
 (defun meant-dimension (name)
   "Return the phrase that suggests the dimension that NAME was probably meant to be."
-  (suggestion (string name) (mapcar #'car (append (knowledge-gripper *knowledge*) +dimensions+))))
+  (suggestion name (mapcar #'car (append (knowledge-gripper *knowledge*) +dimensions+))))
 
 (defun set-variable (name value)
   "Give the variable NAME the VALUE, unless that is a number for a dimension that is misspelt."
