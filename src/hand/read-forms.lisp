@@ -140,11 +140,13 @@ the node of FORM in SCOPE, or NIL after a complaint."
 (defun parse-form (form scope wanted)
   "Return the node of FORM, which gives what is WANTED: :NUMBER, :SIX or :TEST.  NIL after a
 complaint."
-  (let ((*form* (placed form)))
-    (ecase wanted
-      (:number (and (count-step) (parse-number-form form scope)))
-      (:test (and (count-step) (parse-test form scope)))
-      (:six (parse-six form scope)))))
+  (let ((*form* (placed form)) (operator (form-operator form wanted)))
+    (cond ((not (or (eq wanted :six) (count-step))) nil)
+          (operator (funcall (operator-parse operator) form scope wanted))
+          (t (ecase wanted
+               (:number (parse-number-form form scope))
+               (:six (parse-six form scope))
+               (:test (parse-test form scope)))))))
 
 (defun parse-forms (forms scope wanted)
   "Return the nodes of FORMS, or NIL after complaints."
@@ -173,15 +175,14 @@ complaint."
 ;;; Numbers
 
 (defun parse-number-form (form scope)
-  (let ((operator (form-operator form :number)))
-    (cond ((realp form)
-           (if (as-double form)
-               (constant-node scope form)
-               (complain form "~a is out of range" form)))
-          ((namep form) (parse-variable form scope))
-          (operator (funcall (operator-parse operator) form scope :number))
-          ((and (consp form) (namep (first form))) (parse-call form scope))
-          (t (complain form "~a is not a number, a name or an operation" (form-text form))))))
+  "Return the node of FORM, which begins with no operator: a number, a name or a call of a helper."
+  (cond ((realp form)
+         (if (as-double form)
+             (constant-node scope form)
+             (complain form "~a is out of range" form)))
+        ((namep form) (parse-variable form scope))
+        ((and (consp form) (namep (first form))) (parse-call form scope))
+        (t (complain form "~a is not a number, a name or an operation" (form-text form)))))
 
 (defun note-use (entry scope)
   "Note that the grasp that is being read in SCOPE uses ENTRY, if that is a dimension."
@@ -374,11 +375,10 @@ BODY is."
 ;;; Lists of six
 
 (defun parse-six (form scope)
-  "Return the node of FORM: a list of six entries, or one form that gives them."
-  (let ((operator (form-operator form :six)))
-    (cond ((not (consp form)) (complain form "~a is not a list of six entries" (form-text form)))
-          (operator (funcall (operator-parse operator) form scope :six))
-          (t (parse-six-entries form form scope)))))
+  "Return the node of FORM, which begins with no operator: a list of six entries."
+  (if (consp form)
+      (parse-six-entries form form scope)
+      (complain form "~a is not a list of six entries" (form-text form))))
 
 (defun parse-six-entries (form entries scope)
   (let ((nodes (loop for entry in entries
@@ -421,13 +421,11 @@ computes them."
     (and (comparison-p operator) operator)))
 
 (defun parse-test (form scope)
-  "Return the node of FORM, which is true or false, or NIL after a complaint."
-  (let ((operator (form-operator form :test)))
-    (cond ((name= form "T") (node :true form))
-          ((not (consp form)) (complain form "~a is not a test" (form-text form)))
-          (operator (funcall (operator-parse operator) form scope :test))
-          ((null (rest form)) (parse-form (first form) scope :test))
-          (t (parse-infix form scope)))))
+  "Return the node of FORM, a test that begins with no operator, or NIL after a complaint."
+  (cond ((name= form "T") (node :true form))
+        ((not (consp form)) (complain form "~a is not a test" (form-text form)))
+        ((null (rest form)) (parse-form (first form) scope :test))
+        (t (parse-infix form scope))))
 
 (define-form "CONSTRAINED" (:test) (form scope)
   (let ((grasp-face (and (= (length form) 2)
