@@ -106,8 +106,9 @@ where the digits before or after the point may be absent, and d stands for e too
 
 (defun parse-ratio (text start slash end numerator)
   (declare (type (simple-array character (*)) text) (fixnum start slash end))
-  (let ((denominator (digits-value text (1+ slash) (digits-end text (1+ slash) end) 0)))
-    (cond ((or (= slash start) (= (1+ slash) end) (< (digits-end text (1+ slash) end) end))
+  (let* ((last (digits-end text (1+ slash) end))
+         (denominator (digits-value text (1+ slash) last 0)))
+    (cond ((or (= slash start) (= (1+ slash) end) (< last end))
            (values nil :syntax))
           ((zerop denominator) (values nil :zero))
           (t (/ numerator denominator)))))

@@ -47,7 +47,10 @@ if there is none."
 (defparameter +most-dimensions+ 200 "The most dimensions that a gripper may have.")
 
 (defun parse-dimension (name value form)
-  (cond ((name-in name '("U" "V" "T"))
+  "Return the entry of the dimension NAME, which VALUE, a part of FORM, follows; or complain."
+  (cond ((not (realp value))
+         (complain form "~a has no number after it" name))
+        ((name-in name '("U" "V" "T"))
          (complain form "~a can't be a dimension: it means something else in a form" name))
         ((not (and (as-double value) (>= value 0)))
          (complain form "~a is ~a; a dimension is a number from 0" name (form-text value)))
@@ -69,13 +72,6 @@ have.")
       (complain form "MODEL is the name of the hand, a string of at most ~d characters such as ~
                       \"2F-85\", not ~a" +longest-model+ (form-text value))))
 
-(defun parse-number-of (name list form)
-  "Return the entry of the dimension NAME, whose number LIST, the rest of the gripper, begins with;
-or NIL after a complaint."
-  (if (realp (first list))
-      (parse-dimension name (first list) form)
-      (complain form "~a has no number after it" name)))
-
 (defun parse-gripper (list form place)
   "Return the gripper of LIST, names and values in turn, complaining of what is wrong.  A name and
 its value may have a list of their own.  FORM holds LIST, and stands at PLACE."
@@ -88,7 +84,7 @@ its value may have a list of their own.  FORM holds LIST, and stands at PLACE."
                           (complain form "~a is not the name of a dimension" (form-text name)))
                          ((name-in name names) (complain form "~a is given twice" name))
                          ((name= name "MODEL") (setf model (parse-model (first list) form)))
-                         (t (let ((entry (parse-number-of name list form)))
+                         (t (let ((entry (parse-dimension name (first list) form)))
                               (when entry (push entry dimensions)))))
                    (when (namep name)
                      (push (symbol-name name) names)
