@@ -188,7 +188,7 @@
       (check (supergrip-chainer:rule-name rule) (supergrip-chainer:rule-comment rule)
              "Printed" "Reconstructed"))
     (dolist (grasp (shipped-grasps))
-      (check (supergrip:grasp-name grasp) (supergrip::grasp-comment grasp)
+      (check (supergrip:grasp-name grasp) (supergrip::draft-comment (supergrip::grasp-draft grasp))
              "Repaired" "Reconstructed"))))
 
 ;;; Properties

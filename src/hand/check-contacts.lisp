@@ -61,7 +61,7 @@ likely first."
 
 (defun map-boxes (visit registers grasp hand)
   "Call VISIT, a function without arguments, with REGISTERS holding each of many boxes in turn."
-  (let* ((parts (parts-of (grasp-conditions-node grasp)))
+  (let* ((parts (parts-of (draft-conditions (grasp-draft grasp))))
          (sizes (sizes-to-try parts hand))
          (inputs (loop for part in parts
                        when (eq (node-kind part) :input) append (node-args part))))

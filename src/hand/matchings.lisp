@@ -67,6 +67,7 @@ order of the faces; O follows."
   "The 24 matchings, in order.  Sets of them are integers, one bit each.")
 
 (deftype matching-set () '(unsigned-byte 24))
+(deftype matching-sets (&optional (count '*)) `(simple-array matching-set (,count)))
 
 (defparameter +all-matchings+ (1- (ash 1 24)) "The set of all matchings.")
 

@@ -7,28 +7,22 @@
 uses, PALM the one that the palm faces, CONTACTS a list of (GRASP-FACE P Q), P and Q being
 registers; PLACES holds the same as axes (0 to 2) and registers in turn, without the axes that the
 faces are normal to.  The other parts are PROGRAMs; COMPARISONS is an alist from the comparisons in
-CONDITIONS-NODE to those of their operands.  DRAFT has the nodes of all parts.
+CONDITIONS to those of their operands.  DRAFT has the nodes of all parts.
 USABLE holds, for each set of constrained faces, the set of the matchings that use none of them;
 SAME, for each matching, the set of those that are the same grasp on a box that stands upright,
 itself included; SAME-LYING such sets where gravity is along X, Y and Z; SAME-CENTRE, of those of
 them whose grasp centre is surely the same place of the box."
   (name "" :type string :read-only t) (index 0 :type fixnum :read-only t)
   (definition nil :read-only t) (draft nil :read-only t)
-  (comment '() :read-only t) (used '() :type list :read-only t) (palm 0 :type fixnum :read-only t)
-  (conditions-node nil :read-only t) (conditions nil :type (or null program) :read-only t)
-  (comparisons '() :type list :read-only t)
-  (offset nil :type (or null program) :read-only t)
-  (positions nil :type (or null program) :read-only t) (contacts '() :type list :read-only t)
-  (places nil :type register-vector :read-only t)
-  (wrench nil :type (or null program) :read-only t)
-  (twist nil :type (or null program) :read-only t)
-  (usable (make-array 64 :element-type '(unsigned-byte 24))
-   :type (simple-array (unsigned-byte 24) (64)) :read-only t)
-  (same (make-array 24 :element-type '(unsigned-byte 24))
-   :type (simple-array (unsigned-byte 24) (24)) :read-only t)
+  (used '() :type list :read-only t) (palm 0 :type fixnum :read-only t)
+  (conditions nil :type program :read-only t) (comparisons '() :type list :read-only t)
+  (offset nil :type program :read-only t) (positions nil :type program :read-only t)
+  (contacts '() :type list :read-only t) (places nil :type register-vector :read-only t)
+  (wrench nil :type program :read-only t) (twist nil :type program :read-only t)
+  (usable nil :type (matching-sets 64) :read-only t)
+  (same nil :type (matching-sets 24) :read-only t)
   (same-lying #() :type simple-vector :read-only t)
-  (same-centre (make-array 24 :element-type '(unsigned-byte 24))
-   :type (simple-array (unsigned-byte 24) (24)) :read-only t))
+  (same-centre nil :type (matching-sets 24) :read-only t))
 
 (defun grasp-form (grasp)
   "Return the form that defines GRASP, (SETQ name '(key value ...)), in whatever shape it was read."
@@ -393,7 +387,7 @@ forms show."
 (defun same-matchings (turns same-p)
   "Return, for each matching, the set of those of TURNS of it that are the same grasp, as SAME-P, a
 function of the kind of a turn and a matching, says."
-  (let ((sets (make-array 24 :element-type '(unsigned-byte 24))))
+  (let ((sets (make-array 24 :element-type 'matching-set)))
     (loop for matching across +matchings+
           do (setf (aref sets (matching-index matching))
                    (reduce #'logior
@@ -411,7 +405,7 @@ grasp where gravity is along the box's AXIS, 0 to 2."
 (defun usable-matchings (used)
   "Return, for each set of box faces, the set of the matchings in which none of the grasp faces USED
 has one of them."
-  (let ((sets (make-array 64 :element-type '(unsigned-byte 24) :initial-element +all-matchings+)))
+  (let ((sets (make-array 64 :element-type 'matching-set :initial-element +all-matchings+)))
     (dotimes (faces 64 sets)
       (dotimes (face 6)
         (when (logbitp face faces)
@@ -439,9 +433,7 @@ LAYOUT."
                        'vector)))
     (make-grasp
      :name (draft-name draft) :index index :definition (draft-form draft)
-     :draft draft :comment (draft-comment draft)
-     :used (draft-used draft) :palm (draft-palm draft)
-     :conditions-node conditions
+     :draft draft :used (draft-used draft) :palm (draft-palm draft)
      :conditions (test-program conditions layout)
      :comparisons (comparison-programs conditions layout)
      :offset (six-program (draft-offset draft) layout)

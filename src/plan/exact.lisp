@@ -161,8 +161,7 @@ in all."
               (rate-exactly candidate workspace))))))))
 
 (defparameter +each-alone+
-  (coerce (loop for matching below 24 collect (ash 1 matching))
-          '(simple-array (unsigned-byte 24) (*)))
+  (coerce (loop for matching below 24 collect (ash 1 matching)) 'matching-sets)
   "For each matching, the set of itself: gravity has a direction, so half a turn makes a
 difference.")
 

@@ -60,7 +60,7 @@ of WRENCH, FORCE-NEEDS and VELOCITY-NEEDS what the task asks at the grasp centre
   (box nil :type (or null box)) (gamma 0.5d0 :type double-float)
   (index (first *indices*) :type index) (steps '() :type list)
   (registers nil :type registers)
-  (tried nil :type (simple-array (unsigned-byte 24) (*)))
+  (tried nil :type matching-sets)
   (best nil)
   (lengths (make-three) :type three) (centre (make-three) :type three)
   (offset (make-three) :type three)
@@ -97,8 +97,7 @@ they are taken.")
 (defun make-workspace (graspbase)
   "Return a workspace with the grasps of GRASPBASE, at no box yet."
   (%make-workspace (copy-seq (graspbase-registers graspbase))
-                   (make-array (length (graspbase-grasps graspbase))
-                               :element-type '(unsigned-byte 24))))
+                   (make-array (length (graspbase-grasps graspbase)) :element-type 'matching-set)))
 
 (defun start-workspace (workspace box gamma &optional (index (first *indices*)))
   "Make WORKSPACE, which may have been used, one at BOX with nothing tried yet.  Return it."

@@ -33,7 +33,7 @@ before.  The log of MEMORY gets the candidates."
     (unless (zerop (logandc2 open (aref tried index)))
       (let ((same (funcall (index-same (workspace-index workspace)) grasp
                            (workspace-box workspace))))
-        (declare (type (simple-array (unsigned-byte 24) (*)) same))
+        (declare (type matching-sets same))
         (loop
           (let ((left (logandc2 open (aref tried index))))
             (declare (type matching-set left))

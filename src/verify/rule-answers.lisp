@@ -10,7 +10,7 @@ ORDER the list of those that it would take, (GRASP-INDEX . MATCHING-INDEX), in o
 rules refuse the box, what they suggested before does not count.  KEEP BEST and the end of the
 rules are the same: both keep the best."
   (cant '() :type list)
-  (tried nil :type (simple-array (unsigned-byte 24) (*)))
+  (tried nil :type matching-sets)
   (order '() :type list))
 
 (defun answer-difference (a b)

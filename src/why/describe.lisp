@@ -149,7 +149,7 @@ Returns the grasp."
   (let ((grasp (find-named name knowledge :grasp)))
     (plainly
       (write-grasp-form grasp stream)
-      (write-comment (grasp-comment grasp) stream)
+      (write-comment (draft-comment (grasp-draft grasp)) stream)
       (write-derived (draft-derived (grasp-draft grasp)) stream)
       (format stream "In words: ~{~a on ~a~^, ~}; the palm over ~a; ~{~a~^ ~} must be free.~%"
               (fingers-on grasp (lambda (grasp-face) (svref +grasp-faces+ grasp-face)))

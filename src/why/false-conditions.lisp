@@ -97,7 +97,8 @@ one."
   "Return the faults of the conditions of CANDIDATE, the worst first; WORKSPACE is at its box."
   (let ((grasp (%candidate-grasp candidate)))
     (place-box workspace (%candidate-matching candidate))
-    (stable-sort (faults (grasp-conditions-node grasp) nil grasp (workspace-registers workspace))
+    (stable-sort (faults (draft-conditions (grasp-draft grasp)) nil grasp
+                         (workspace-registers workspace))
                  #'> :key #'fault-shortfall)))
 
 ;;; What is compared
