@@ -91,6 +91,7 @@
                              (:file "trace")
                              (:file "repl")
                              (:file "by-hand")
+                             (:file "typed-names")
                              (:file "words")
                              (:file "edit")
                              (:file "compare")

@@ -14,7 +14,7 @@ wrong in them.")
    #:errors-in #:warnings-in #:refused-p #:suggestion
    ;; SBCL itself
    #:backquote-p #:take-from #:give-to #:keep-in #:double-bits #:with-plain-floats
-   #:without-float-traps #:global-name-p #:seeded-state #:define-typed-word #:typed-name
+   #:without-float-traps #:seeded-state
    ;; numbers
    #:exact-decimal #:bounded-rational #:+largest+ #:finite-p
    #:system-failure #:system-failure-errno #:read-failure #:write-failure #:+is-directory+
