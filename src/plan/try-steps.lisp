@@ -21,6 +21,7 @@ if QUALITY and FORCE-RADIUS are no more than upper bounds."
   (strength nil)                        ; see plan/exact.lisp
   (bound nil :type boolean))
 
+(declaim (inline possible-p))
 (defun possible-p (candidate)
   (eq (%candidate-outcome candidate) :possible))
 
