@@ -171,8 +171,8 @@ place there is chosen so that their ways are short."
          (computable-p (contacts-grip candidate workspace) (gravity-on box)))))
 
 (defun best-first (refinements)
-  "Return REFINEMENTS, which are in the order of their plan, by quality.  Proofs of radii hardly tell
-qualities within 0.1 % apart: of those of the best, the first in the plan comes first."
+  "Return REFINEMENTS, which are in the order of their plan, by quality.  Proofs of radii hardly
+tell qualities within 0.1 % apart: of those of the best, the first in the plan comes first."
   (let* ((sorted (stable-sort (copy-list refinements) #'> :key #'refinement-quality))
          (best (find-if (lambda (refinement)
                           (>= (refinement-quality refinement)
