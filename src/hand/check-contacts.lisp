@@ -143,17 +143,21 @@ MOST; if it is not, note by how much."
   "Return the contacts of GRASP that are on no box that was looked at, or farther out than MOST,
 strays, and how many boxes its conditions allowed.  HAND is how large boxes are about, in cm."
   (let ((registers (copy-seq (graspbase-registers graspbase)))
-        (centre (make-three)) (left (strays-of grasp)) (count 0))
+        (centre (make-three)) (left (strays-of grasp)) (count 0) (size (* 0.4d0 hand)))
     (without-float-traps
       (block looking
-        (map-boxes (lambda ()
-                     (when (put-centre grasp registers centre)
-                       (incf count)
-                       (setf left (remove-if (lambda (stray)
-                                               (note-stray stray registers centre most))
-                                             left))
-                       (when (null left) (return-from looking))))
-                   registers grasp hand)))
+        (flet ((look ()
+                 (when (put-centre grasp registers centre)
+                   (incf count)
+                   (setf left (remove-if (lambda (stray)
+                                           (note-stray stray registers centre most))
+                                         left))
+                   (when (null left) (return-from looking)))))
+          ;; A cube that the hand holds well mostly shows at once that all is right.
+          (put-box registers grasp 0.8d0 0d0 size size size)
+          (look)
+          (setf left (strays-of grasp) count 0)
+          (map-boxes #'look registers grasp hand))))
     (values left count)))
 
 (defun complain-of-stray (stray form count hand)

@@ -88,11 +88,15 @@ order of the faces; O follows."
     (find faces +matchings+ :key #'matching-faces :test #'equalp)))
 
 (defparameter +turns+
-  '((:half-turn #(1 0 3 2 4 5))
-    (:third-turn #(2 3 4 5 0 1))
-    (:third-turn #(4 5 0 1 2 3)))
+  (loop for (kind turn) in '((:half-turn #(1 0 3 2 4 5))
+                             (:third-turn #(2 3 4 5 0 1))
+                             (:third-turn #(4 5 0 1 2 3)))
+        collect (list kind turn (map 'vector (lambda (matching)
+                                               (ash 1 (matching-index (turned matching turn))))
+                                     +matchings+)))
   "The turns that may leave a grasp the same: the half-turn about A, and the two third-turns about
-the corner of N1 O1 A1.")
+the corner of N1 O1 A1.  Of each, its kind, where it takes the grasp faces, and for each matching
+the set of the one that it becomes.")
 
 (defun axis-name (axis)
   "Return the name of AXIS, 0 to 5, of the box frame: \"along X\" to \"about Z\"."

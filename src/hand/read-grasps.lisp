@@ -378,11 +378,13 @@ contacts are mirror images."
 (defun allowed-turns (draft)
   "Return those of +TURNS+ after which the grasp of DRAFT is the same, as far as its faces and its
 forms show."
-  (loop for (kind turn) in +turns+
-        when (and (allowed-turn-p kind turn (draft-used draft)
-                                  (mapcar #'first (draft-contacts draft)))
-                  (same-draft-p draft kind turn))
-          collect (list kind turn)))
+  (remove-if-not (lambda (row)
+                   (destructuring-bind (kind turn sets) row
+                     (declare (ignore sets))
+                     (and (allowed-turn-p kind turn (draft-used draft)
+                                          (mapcar #'first (draft-contacts draft)))
+                          (same-draft-p draft kind turn))))
+                 +turns+))
 
 (defun same-matchings (turns same-p)
   "Return, for each matching, the set of those of TURNS of it that are the same grasp, as SAME-P, a
@@ -391,9 +393,9 @@ function of the kind of a turn and a matching, says."
     (loop for matching across +matchings+
           do (setf (aref sets (matching-index matching))
                    (reduce #'logior
-                           (loop for (kind turn) in turns
+                           (loop for (kind nil sets) in turns
                                  when (funcall same-p kind matching)
-                                   collect (ash 1 (matching-index (turned matching turn))))
+                                   collect (svref sets (matching-index matching)))
                            :initial-value (ash 1 (matching-index matching)))))
     sets))
 

@@ -17,60 +17,86 @@
   "Return the axis, 0 to 2, whose place AXIS takes after TURN."
   (floor (svref turn (* 2 axis)) 2))
 
-(defun of-kind-keys (kind node key)
-  "Return the keys, by the function KEY, of what NODE, an AND or an OR, whichever KIND is, joins."
+(defun joined-nodes (node)
+  "Return the nodes that NODE, an AND or an OR, joins, also within others of its kind."
   (loop for part in (node-args node)
-        append (if (eq (node-kind part) kind)
-                   (of-kind-keys kind part key)
-                   (list (funcall key part)))))
+        append (if (eq (node-kind part) (node-kind node)) (joined-nodes part) (list part))))
 
-(defun node-key-function (known used turn)
-  "Return a function that returns the number of a node after TURN, the same for nodes that say the
-same.  KNOWN is a table of what has numbers; of the grasp faces USED none is constrained."
-  (let ((numbers (make-hash-table :test #'eq)))
-    (labels ((number-of (what)
-               (or (gethash what known) (setf (gethash what known) (hash-table-count known))))
-             (key (thing)
-               (cond ((node-p thing) (or (gethash thing numbers)
-                                         (setf (gethash thing numbers) (number-of (parts thing)))))
-                     ((consp thing) (mapcar #'key thing))
-                     (t thing)))
-             (parts (node)
-               (let ((kind (node-kind node)) (first (first (node-args node))))
+(defun same-in-any-order-p (list other same-p)
+  "True if SAME-P holds of the elements of LIST and of OTHER, each with one of its own."
+  (declare (function same-p))
+  (let ((left other))
+    (and (= (length list) (length other))
+         (loop for element in list
+               always (if (funcall same-p element (first left)) ; mostly the order is the same
+                          (progn (pop left) t)
+                          (let ((match (member element left :test same-p)))
+                            (setf left (append (ldiff left match) (rest match)))
+                            match))))))
+
+(defun same-after-turn-function (used turn)
+  "Return a function of two nodes, true if the first says after TURN what the second says now.  Of
+the grasp faces USED none is constrained."
+  (let ((known (make-hash-table :test #'eq)))
+    (labels ((same-p (a b)
+               (cond ((and (node-p a) (node-p b))
+                      (and (eq (node-kind a) (node-kind b)) (same-nodes-p (node-kind a) a b)))
+                     ((and (consp a) (consp b)) (same-lists-p a b))
+                     (t (equal a b))))
+             (same-lists-p (a b)
+               (loop while (and a b)
+                     always (same-p (pop a) (pop b))
+                     finally (return (and (null a) (null b)))))
+             (same-nodes-p (kind a b)
+               (if (member kind '(:input :constant :constrained))
+                   (same-parts-p kind a b)
+                   (let ((seen (assoc b (gethash a known) :test #'eq)))
+                     (if seen
+                         (cdr seen)
+                         (let ((same (same-parts-p kind a b)))
+                           (push (cons b same) (gethash a known))
+                           same)))))
+             (same-parts-p (kind a b)
+               (let ((first-a (first (node-args a))) (rest-a (rest (node-args a)))
+                     (first-b (first (node-args b))) (rest-b (rest (node-args b))))
                  (case kind
-                   (:input (list kind (turned-register first turn)))
-                   (:constrained (if (member first used)
-                                     (list :false)
-                                     (list kind (svref turn first))))
-                   ((:and :or) (cons kind (sort (of-kind-keys kind node #'key) #'<)))
-                   (:let (list kind (sort (mapcar #'key first) #'<)
-                               (key (second (node-args node)))))
+                   (:input (eql (turned-register first-a turn) first-b))
+                   (:constrained (if (member first-a used)
+                                     (member first-b used)
+                                     (eql (svref turn first-a) first-b)))
+                   ((:and :or)
+                    (same-in-any-order-p (joined-nodes a) (joined-nodes b) #'same-p))
+                   (:let (and (same-in-any-order-p first-a first-b #'same-p)
+                              (same-lists-p rest-a rest-b)))
                    (:operation
-                    (let ((keys (mapcar #'key (rest (node-args node)))))
-                      (list* kind first (if (eq (arithmetic-kind first) :symmetric)
-                                            (sort keys #'<)
-                                            keys))))
-                   (t (cons kind (mapcar #'key (node-args node))))))))
-      #'key)))
+                    (and (eq first-a first-b)
+                         (if (eq (arithmetic-kind first-a) :symmetric)
+                             (same-in-any-order-p rest-a rest-b #'same-p)
+                             (same-lists-p rest-a rest-b))))
+                   (t (same-lists-p (node-args a) (node-args b)))))))
+      #'same-p)))
+
+(defun same-contact-p (contact other turn same-p)
+  "True if CONTACT, a grasp face and two nodes, is after TURN where OTHER is, as SAME-P says."
+  (flet ((places (contact)
+           (loop for axis in (remove (floor (first contact) 2) '(0 1 2))
+                 for node in (rest contact)
+                 collect (cons axis node))))
+    (and (eql (svref turn (first contact)) (first other))
+         (loop for (axis . node) in (places contact)
+               always (funcall same-p node
+                               (cdr (assoc (turned-axis axis turn) (places other))))))))
 
 (defun same-forms-p (turn used alone sixes contacts)
   "True if what a grasp that uses the faces USED says is the same after TURN: the nodes ALONE;
 SIXES, lists of six nodes along and about N O A; and CONTACTS, lists of a face and two nodes."
-  (let* ((known (make-hash-table :test #'equal)) (nothing #(0 1 2 3 4 5))
-         (now (node-key-function known used nothing)) (then (node-key-function known used turn)))
-    (flet ((contact-keys (key turn)
-             (loop for (face . nodes) in contacts
-                   collect (cons (svref turn face)
-                                 (sort (loop for axis in (remove (floor face 2) '(0 1 2))
-                                             for node in nodes
-                                             collect (cons (turned-axis axis turn)
-                                                           (funcall key node)))
-                                       #'< :key #'car)))))
-      (and (loop for node in alone always (equal (funcall now node) (funcall then node)))
-           (loop for six in sixes
-                 always (loop for node in six
-                              for place from 0
-                              for other = (+ (turned-axis (mod place 3) turn) (* 3 (floor place 3)))
-                              always (equal (funcall then node) (funcall now (nth other six)))))
-           (null (set-exclusive-or (contact-keys now nothing) (contact-keys then turn)
-                                   :test #'equal))))))
+  (let ((same-p (same-after-turn-function used turn)))
+    (and (loop for node in alone always (funcall same-p node node))
+         (loop for six in sixes
+               always (loop for node in six
+                            for place from 0
+                            for other = (+ (turned-axis (mod place 3) turn) (* 3 (floor place 3)))
+                            always (funcall same-p node (nth other six))))
+         (same-in-any-order-p contacts contacts
+                              (lambda (contact other)
+                                (same-contact-p contact other turn same-p))))))
