@@ -224,12 +224,15 @@ returns for it; and SIGINT, if SBCL still handles it."
   "Save this image as the executable FILE, which calls FUNCTION, and end.
 Options of SBCL's runtime, as --dynamic-space-size, stay possible before all others."
   ;; While SBCL starts, and collects garbage, its own handlers are in force: that of SIGTERM would
-  ;; leave with 0 or, asked twice, with 1; that of SIGINT gets to NEVER-DEBUG.
-  (sb-ext:without-package-locks
-    (setf (fdefinition 'sb-unix::sigterm-handler)
-          (lambda (signal info context)
-            (declare (ignore signal info context))
-            (end-process (signal-status :sigterm)))))
+  ;; leave with 0 or, asked twice, with 1; that of SIGINT signals a condition, which SBCL may make
+  ;; an error of a hook.
+  (flet ((end-at (signal)
+           (lambda (number info context)
+             (declare (ignore number info context))
+             (end-process (signal-status signal)))))
+    (sb-ext:without-package-locks
+      (setf (fdefinition 'sb-unix::sigterm-handler) (end-at :sigterm)
+            (fdefinition 'sb-unix::sigint-handler) (end-at :sigint))))
   (push #'catch-signals-first sb-ext:*init-hooks*)
   (sb-ext:save-lisp-and-die file :executable t :toplevel function
                                  :save-runtime-options :accept-runtime-options))
