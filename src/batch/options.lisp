@@ -33,7 +33,7 @@ the best grasp, or why there is none.  Without FILE, or where FILE is -, read st
                             with the same details as the best; N is at most 1000
   --refine                  also move the fingers of the three best grasps to better places; write
                             the new places, the gain, and a bound of what any places could gain;
-                            takes about half a second a box
+                            takes some tenths of a second a box
   --report DIR              also write a page for each box into DIR, and an index with thumbnails;
                             needs cl-who (docs/pictures.md), and keeps all plans in memory
   --check                   only read the rules and grasps, and say what is wrong with them

@@ -202,14 +202,6 @@ and the exponent E of 0.D x 10^E."
   (setf (sb-ext:bytes-consed-between-gcs)
         (min (sb-ext:bytes-consed-between-gcs) 16000000)))
 
-(defun catch-signals-first ()
-  "Catch signals before SBCL makes other threads, which SIGTERM could come to."
-  ;; SBCL would make an error of a hook out of SIGINT.
-  (handler-bind ((sb-sys:interactive-interrupt (lambda (condition)
-                                                 (declare (ignore condition))
-                                                 (end-process (signal-status :sigint)))))
-    (catch-signals)))
-
 (defun never-debug (report)
   "Let an error that nothing handles end the process, with the status that REPORT, a function,
 returns for it; and SIGINT, if SBCL still handles it."
@@ -233,6 +225,7 @@ Options of SBCL's runtime, as --dynamic-space-size, stay possible before all oth
     (sb-ext:without-package-locks
       (setf (fdefinition 'sb-unix::sigterm-handler) (end-at :sigterm)
             (fdefinition 'sb-unix::sigint-handler) (end-at :sigint))))
-  (push #'catch-signals-first sb-ext:*init-hooks*)
+  ;; Before SBCL makes other threads, which SIGTERM could come to.
+  (push #'catch-signals sb-ext:*init-hooks*)
   (sb-ext:save-lisp-and-die file :executable t :toplevel function
                                  :save-runtime-options :accept-runtime-options))
